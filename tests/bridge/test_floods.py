@@ -41,14 +41,14 @@ def mutated(rng: random.Random, data: bytes) -> bytes:
 def samples(league: str) -> list[bytes]:
     """Return valid messages of all ports."""
     if league == "vsss":
-        packet = fira_pb2.Packet()
-        packet.cmd.robot_commands.add(id=1, wheel_left=10.0, wheel_right=-5.0)
-        packet.cmd.robot_commands.add(id=2, yellowteam=True, wheel_left=3.0)
-        packet.replace.ball.x = 0.2
-        packet.replace.robots.add(turnon=True).position.x = 0.3
+        wheeled = fira_pb2.Packet()
+        wheeled.cmd.robot_commands.add(id=1, wheel_left=10.0, wheel_right=-5.0)
+        wheeled.cmd.robot_commands.add(id=2, yellowteam=True, wheel_left=3.0)
+        wheeled.replace.ball.x = 0.2
+        wheeled.replace.robots.add(turnon=True).position.x = 0.3
         placement = vssref_pb2.Placement()
         placement.world.robots.add(robot_id=1, x=0.1, y=0.2, orientation=20.0)
-        return [packet.SerializeToString(), placement.SerializeToString()]
+        return [wheeled.SerializeToString(), placement.SerializeToString()]
     command = simulation_pb2.Command()
     command.control.teleport_ball.x = 1.0
     robot = command.control.teleport_robot.add(x=1.0, y=2.0, orientation=0.5)
