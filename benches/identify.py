@@ -134,10 +134,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--logs", type=int, default=20, help="robots of each league")
     parser.add_argument("--leagues", nargs="+", default=["ssl", "vss"], choices=["ssl", "vss"])
     options = parser.parse_args(arguments)
-    header = ["number", "identified", "error (rms)", "greatest error", "half interval", "held"]
+    header = ("number", "identified", "error (rms)", "greatest error", "half interval", "held")
     for league in options.leagues:
         counts = measure(league, options.logs)
-        sys.stdout.write(f"{league}\n\n{table(header, rows(counts))}\n\n")
+        sys.stdout.write(f"{league}\n\n{table(header, map(tuple, rows(counts)))}\n\n")
 
 
 if __name__ == "__main__":

@@ -175,7 +175,7 @@ def results() -> str:
 
 def _row(pairing: dict[str, Any], **values: Any) -> Row:  # noqa: ANN401  (numbers of a file)
     """A row of the result file."""
-    of_file = {
+    of_file: dict[str, Any] = {
         name: Interval(**value) if isinstance(value, dict) else value
         for name, value in values.items()
     }

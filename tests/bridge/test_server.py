@@ -336,5 +336,5 @@ def test_an_external_referee_is_obeyed() -> None:
 
 
 def test_a_served_match_refuses_forecasts() -> None:
-    with pytest.raises(ValueError, match="sensing.forecast: expected 0"):
+    with pytest.raises(ValueError, match=r"sensing.forecast: expected 0"):
         Arena(make_match("ssl", "B", None), Sensing("rc2021", forecast=1))

@@ -12,7 +12,7 @@ COMMAND = {"time": 0.1, "robot": "a", "v_x": 1.0, "v_y": 0.0, "v_theta": 0.0}
 
 
 def test_rows_say_what_was_seen_and_sent() -> None:
-    rows = [
+    rows: list[dict[str, object]] = [
         POSE | COMMAND | {"kick_v_x": 2.0},
         {"time": "0.2", "robot": " ball ", "x": "0.5", "y": "0", "theta": "", "v_x": None},
     ]

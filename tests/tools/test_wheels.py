@@ -3,12 +3,13 @@ from pathlib import Path
 
 import pytest
 
+from tools.paths import ROOT
 from tools.wheels import build, tryout
 
 
 def test_the_readmes_program_and_commands_are_tried() -> None:
     assert "rsoccer.parallel_env" in tryout.ten_lines()
-    readme = (build.ROOT / "README.md").read_text()
+    readme = (ROOT / "README.md").read_text()
     for line in tryout.COMMANDS:
         name, command, *_ = line.split()
         assert name == "rsoccer"
@@ -31,7 +32,7 @@ def test_a_compiler_without_the_standard_library_is_recognized(
 
 
 def test_the_release_builds_a_wheel_of_each_architecture_for_the_same_platform() -> None:
-    workflow = (build.ROOT / ".github" / "workflows" / "release.yml").read_text()
+    workflow = (ROOT / ".github" / "workflows" / "release.yml").read_text()
     targets = dict(re.findall(r"target: ([\w-]+), compatibility: \"?(\w+)", workflow))
     assert len(targets) == 6
     for architecture, platform in build.PLATFORMS.items():

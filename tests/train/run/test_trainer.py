@@ -216,9 +216,13 @@ def test_a_single_weight_that_is_not_finite_is_a_divergence(tmp_path: Path) -> N
     run = trainer.ppo.update
 
     def spoil(
-        batch: Batch, learning_rate: float, check_stop: Callable[[], None]
+        batch: Batch,
+        learning_rate: float,
+        check_stop: Callable[[], None],
+        *,
+        critic_only: bool = False,
     ) -> dict[str, float]:
-        stats = run(batch, learning_rate, check_stop)
+        stats = run(batch, learning_rate, check_stop, critic_only=critic_only)
         next(trainer.model.actor.parameters()).data[0, 0] = torch.inf
         return stats
 

@@ -63,7 +63,8 @@ def _is_due(match: MatchState, kick: Array) -> Mask:
     way = match.rows[:, :2] - game.kick_position
     is_near = norm(way[:, 0], way[:, 1]) < KICK_DISTANCE
     is_due: Mask = (game.command == Command.NORMAL_START) & is_near
-    return is_due[:, None] & (game.kick[:, None] == kick)
+    of_robots: Mask = is_due[:, None] & (game.kick[:, None] == kick)
+    return of_robots
 
 
 def choose_corner(
@@ -117,7 +118,7 @@ def kick_target(field: FieldGeometry, view: View, stage: Array) -> DriveTarget:
     begins = is_facing & (-ahead > RUN_UP) & (np.abs(stage) == PREPARES)
     stage[begins] *= RUNS
     runs = np.abs(stage) == RUNS
-    way = np.where(runs, FOLLOW_THROUGH, -FOLLOW_THROUGH)
+    way = np.where(runs, np.float32(FOLLOW_THROUGH), np.float32(-FOLLOW_THROUGH))
     turn = np.where(is_facing | runs, np.float32(0.0), sine * TURN_GAIN)
     to_x, to_y = position[..., 0] + way * u_x, position[..., 1] + way * u_y
     return DriveTarget(to_x, to_y, np.ones_like(x), turn)
