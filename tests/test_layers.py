@@ -62,7 +62,7 @@ LAYERS = [
     {"bridge.arena", "bridge.clocks", "bridge.control_reader", "bridge.settings"},
     {"bridge.stand_ins", "bridge.tracker_packets", "bridge.vision_packets"},
     {"bridge.session"},
-    {"bridge.external_referee", "bridge.officials"},
+    {"bridge.awaited_answers", "bridge.external_referee", "bridge.officials"},
     {"bridge.ssl_ports", "bridge.vsss_ports"},
     {"bridge.server"},
     {"bridge.recording", "bridge.sockets"},

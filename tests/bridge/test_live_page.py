@@ -10,6 +10,7 @@ import urllib.request
 
 import pytest
 
+from rsoccer.protocols.schemas import simulation_pb2
 from tests.bridge.clients import Wall
 
 pytest.importorskip("websockets")
@@ -92,3 +93,19 @@ def test_pages_of_others_get_nothing() -> None:
             connect(f"ws://127.0.0.1:{page.port}{FRAMES}", origin=Origin("http://example.org"))
         with pytest.raises(OSError, match=f"page: 127.0.0.1:{page.port}"):
             LivePage(Wall().server, page.port)
+
+
+def test_the_page_shows_robots_that_were_exchanged() -> None:
+    wall = Wall()
+    message = simulation_pb2.Command()
+    specs = message.config.robot_specs.add(radius=0.08, center_to_dribbler=0.07)
+    specs.id.id, specs.id.team = 1, simulation_pb2.BLUE
+    with LivePage(wall.server, 0) as page:
+        pages = []
+        for _ in range(2):
+            with urllib.request.urlopen(page.url, timeout=PATIENCE) as answer:
+                pages.append(answer.read().decode())
+            assert wall.control(message) == []
+            wall.tick(5)
+    kinds = [re.findall(r'"robots": ?\[([0-9, ]+)\]', html) for html in pages]
+    assert [len(set(each[0].replace(" ", "").split(","))) for each in kinds] == [1, 2]

@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 
 from rsoccer import Sensing
+from rsoccer.bridge import recording
 from rsoccer.bridge.recording import record
 from rsoccer.protocols.logs import LogKind, read_log
+from rsoccer.protocols.schemas import simulation_pb2
 from rsoccer.replay import Replay
 from tests.bridge.clients import Wall, local_velocity
 
@@ -59,3 +61,35 @@ def test_what_cannot_be_recorded_is_refused(tmp_path: Path) -> None:
         record(wall.server, tmp_path / "no" / "match.rsr").__enter__()
     with pytest.raises(ValueError, match="record: expected a replay"):
         record(Wall(league="vsss").server, tmp_path / "match.log").__enter__()
+
+
+def lighter_robot() -> simulation_pb2.Command:
+    message = simulation_pb2.Command()
+    specs = message.config.robot_specs.add(mass=1.5)
+    specs.id.id, specs.id.team = 1, simulation_pb2.BLUE
+    return message
+
+
+def test_robots_are_not_exchanged_while_a_replay_is_recorded(tmp_path: Path) -> None:
+    wall = Wall()
+    with record(wall.server, tmp_path / "match.rsr"):
+        wall.tick(20)
+        assert wall.control(lighter_robot()) == ["RECORDING"]
+        wall.tick(20)
+    assert Replay.load(tmp_path / "match.rsr").config.robots[1].mass != 1.5
+    with record(wall.server, tmp_path / "match.log"):
+        assert wall.control(lighter_robot()) == []
+    assert wall.server.session.arena.config.robots[1].mass == 1.5
+
+
+def test_a_replay_ends_when_it_is_full(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    monkeypatch.setattr(recording, "MAX_SECONDS", 0.5)
+    wall = Wall()
+    with record(wall.server, tmp_path / "match.rsr"):
+        wall.tick(200)
+    assert Replay.load(tmp_path / "match.rsr").seconds == pytest.approx(0.5)
+    assert wall.server.session.counts["replay: ticks left out"] >= 98
+    (said,) = caplog.messages
+    assert said == "record: the replay is full after 0.5 s; a log has no limit"

@@ -11,8 +11,8 @@ import pytest
 from rsoccer import Sensing
 from rsoccer._core import GAME_COLUMNS
 from rsoccer.bridge.arena import Arena
+from rsoccer.bridge.awaited_answers import RESEND_SECONDS
 from rsoccer.bridge.match_tasks import TICK, make_match
-from rsoccer.bridge.server import RESEND_SECONDS
 from rsoccer.protocols.schemas import (
     grsim_pb2,
     referee_pb2,
@@ -360,7 +360,12 @@ def test_as_fast_as_clients_answer() -> None:
     wall.team(local_velocity([0]))
     assert wall.server.advance(wall.now) == [], "yellow has not come yet"
     assert wall.seconds == first
-    frames = 0
+    wall.team(local_velocity([0]), "yellow", YELLOW)
+    assert wall.server.advance(wall.now), "the first frame is answered"
+    wall.team(local_velocity([0]))
+    wall.team(local_velocity([0]), "yellow", YELLOW)
+    assert wall.server.advance(wall.now) == [], "these are the answers to its copy"
+    first, frames = wall.seconds, 0
     for _ in range(60):
         wall.team(local_velocity([0]))
         wall.team(local_velocity([0]), "yellow", YELLOW)

@@ -12,6 +12,8 @@ import pytest
 from rsoccer.bridge.server import Server
 from rsoccer.bridge.settings import SSL_GROUPS, SSL_PORTS, Settings
 from rsoccer.bridge.sockets import (
+    BATCH,
+    BATCH_SECONDS,
     LOOPBACK,
     Network,
     SocketLoop,
@@ -129,6 +131,22 @@ def test_a_server_of_this_machine_hears_no_other_referee(
     counts = server.session.counts
     assert counts["referee: not of this machine"] == is_local
     assert counts["referee: unreadable"] == 2 - is_local
+
+
+def test_messages_that_take_long_leave_time_for_ticks(places: Network) -> None:
+    now = 0.0
+
+    def clock() -> float:
+        nonlocal now
+        now += BATCH_SECONDS / 4
+        return now
+
+    server = Server(Settings())
+    with SocketLoop(server, places, clock) as loop, receiver(LOOPBACK, 0) as client:
+        for _ in range(BATCH):
+            client.sendto(b"\xff", loop.addresses["control"])
+        loop.turn(PATIENCE)
+        assert 1 <= server.session.counts["control: received"] <= 4
 
 
 def test_a_taken_port_is_named() -> None:

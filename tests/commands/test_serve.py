@@ -5,7 +5,9 @@ from pathlib import Path
 import pytest
 
 from rsoccer import cli
+from rsoccer.bridge.sockets import SocketLoop
 from rsoccer.commands.serve import Serve
+from rsoccer.protocols.schemas import grsim_pb2
 from rsoccer.replay import Replay
 from tests.bridge.test_sockets import free_port
 
@@ -46,6 +48,11 @@ def test_a_match_is_served_and_recorded(
         (["--sensing", "perfect"], "perfect"),
         (["--yellow", "nobody"], "nobody"),
         (["--robots", "12"], "12"),
+        (["--page", "70000"], "page: expected at most 65535, got 70000"),
+        (["--page", "-1"], "page: expected at least 0, got -1"),
+        (["--seconds", "-1"], "seconds: expected 0 to inf, got -1"),
+        (["--seconds", "nan"], "seconds: expected 0 to inf, got nan"),
+        (["--ports", "status_blue=0"], "ports: status_blue: expected at least 1, got 0"),
     ],
 )
 def test_wrong_words_are_named(
@@ -77,3 +84,21 @@ def test_ports_and_groups_are_those_of_the_league_unless_given() -> None:
     }
     assert (network.ports["control"], network.ports["blue"]) == (10300, 10301)
     assert Serve("vsss").network().ports["command"] == 20011
+
+
+def test_the_status_of_grsim_goes_to_the_ports_that_are_given(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    packet, answers = grsim_pb2.Packet(), []
+    packet.commands.timestamp, packet.commands.isteamyellow = 0.0, True
+
+    def send(self: SocketLoop, seconds: float | None = None) -> None:
+        client = ("127.0.0.1", 5001)
+        for yellow in (False, True):
+            packet.commands.isteamyellow = yellow
+            answers.extend(self.server.receive("grsim", packet.SerializeToString(), client, 0.0))
+
+    monkeypatch.setattr(SocketLoop, "run", send)
+    words = ["serve", "ssl", *ports(*SSL), "status_blue=4001", "status_yellow=4002"]
+    assert cli.main(words) == 0
+    assert [answer.address for answer in answers] == [("127.0.0.1", 4001), ("127.0.0.1", 4002)]

@@ -104,3 +104,11 @@ def test_status_tells_of_beams_and_kicks() -> None:
     sent = parse(grsim_pb2.StatusPacket, message.SerializeToString())
     assert grsim.read_status(layout(), sent, BLUE) == {0: False, 1: True, 2: False}
     assert grsim.read_status(layout(), sent, YELLOW) == {}
+
+
+def test_a_ball_without_numbers_stays() -> None:
+    message, before = grsim_pb2.Packet(), state()
+    message.replacement.ball.SetInParent()
+    placement = grsim.read_replacement(layout(), message, before, 1)
+    assert not placement.ball
+    assert np.array_equal(placement.row, before.rows[1])

@@ -201,6 +201,19 @@ def test_useless_logs_are_refused(tmp_path: Path) -> None:
         replay_to_log(match(), path, start=-1.0)
 
 
+def test_a_damaged_time_of_the_referee_adds_no_frames(tmp_path: Path) -> None:
+    frame = state(worlds=1)
+    status = RefereeStatus(Command.STOP, Stage.NORMAL_FIRST_HALF)
+    reported = referee.to_packet(layout(), status, Stamp(0.0, 1, 0.0)).SerializeToString()
+    with LogWriter(tmp_path / "a.log") as log:
+        for i in range(8):
+            time = i * 25_000_000
+            log.write(time + 3600 * 10**9 if i == 4 else time, LogKind.REFEREE, reported)
+            seen = tracker.to_packet(layout(), frame, frame_number=i, timestamp=0.0, uuid="a")
+            log.write(time, LogKind.TRACKER, seen.SerializeToString())
+    assert len(log_to_replay(tmp_path / "a.log", field="ssl_b")) == 8
+
+
 def test_robots_of_both_teams_have_their_slots(tmp_path: Path) -> None:
     frame = Frame.empty(1, 3, 4)
     frame.robots.position[0, :, 0] = np.arange(7) / 10

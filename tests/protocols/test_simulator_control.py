@@ -91,3 +91,39 @@ def test_a_ball_is_not_pulled() -> None:
     message = simulation_pb2.Command()
     message.control.teleport_ball.by_force = True
     assert codes(read(message).problems) == [Code.UNSUPPORTED_BY_FORCE]
+
+
+def test_two_descriptions_of_a_robot_add_up() -> None:
+    message = simulation_pb2.Command()
+    for numbers in ({"mass": 1.5}, {"radius": 0.08}):
+        specs = message.config.robot_specs.add(**numbers)
+        specs.id.id, specs.id.team = 15, simulation_pb2.YELLOW
+    result = read(message)
+    assert not result.problems
+    model = result.robot_models[6]
+    assert (model.mass, model.radius) == (1.5, 0.08)
+
+
+def test_teleports_without_fields_put_nothing() -> None:
+    message = simulation_pb2.Command()
+    message.control.teleport_ball.SetInParent()
+    for number, there in ((7, {"present": True}), (3, {})):
+        robot = message.control.teleport_robot.add(**there)
+        robot.id.id, robot.id.team = number, simulation_pb2.YELLOW
+    before = state()
+    before.ball.spin[1] = 1.0, 2.0, 3.0
+    assert before.robots.velocity[1, 3:5].any(axis=1).all()
+    placement = read_command(layout(), message, before, 1).placement
+    assert np.array_equal(placement.row, before.rows[1])
+    assert not placement.ball
+    assert not placement.robots.any()
+    assert not placement.problems
+
+
+def test_a_robot_that_enters_without_a_place_is_refused() -> None:
+    message = simulation_pb2.Command()
+    robot = message.control.teleport_robot.add(present=True)
+    robot.id.id, robot.id.team = 7, simulation_pb2.YELLOW
+    frame = state()
+    frame.robots.absent[1, 3] = 1.0
+    assert codes(read_command(layout(), message, frame, 1).problems) == [Code.INCOMPLETE]

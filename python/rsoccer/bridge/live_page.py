@@ -72,7 +72,7 @@ class LivePage:
             OSError: the port is taken.
         """
         self._server = server
-        self._content = _page(server).encode()
+        self._content, self._config = _page(server).encode(), server.session.arena.config
         self._changed = threading.Condition()
         self._frame, self._number, self._closed, self._viewers = "", 0, False, 0
         try:
@@ -117,6 +117,9 @@ class LivePage:
             server: the server.
             sent: what it sends.
         """
+        if server.session.arena.config is not self._config:
+            # Robots were exchanged: who loads the page from now on sees the new ones.
+            self._content, self._config = _page(server).encode(), server.session.arena.config
         if not self._viewers or server.session.arena.ticks % _EVERY:
             return
         frame = json.dumps(frame_of(server), separators=(",", ":"))

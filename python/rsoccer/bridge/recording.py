@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -24,9 +25,14 @@ from rsoccer.replay.recorded import Episode
 from rsoccer.replay.replay import SUFFIX
 from rsoccer.replay.sensed_poses import SensedPoses
 
+MAX_SECONDS: Final = 3600.0
+"""Longest replay that is recorded, simulated s. It is in the memory until the end: some 2 kB a
+frame of six against six. A log is written as the match goes on, and has no limit."""
 PERIOD: Final = 0.025
 """Time between two frames of a replay, s: the control step of the tasks."""
+_LOGGER: Final = logging.getLogger(__name__)
 _EVERY: Final = round(PERIOD / TICK)
+_LEFT_OUT: Final = "replay: ticks left out"
 _STEPS: Final = [place for place, name in enumerate(COLUMNS) if "_steps" in name]
 """Columns of the referee that count control steps."""
 _KINDS: Final = {
@@ -42,7 +48,9 @@ def record(server: Server, path: Path | str) -> Iterator[None]:
 
     Args:
         server: the server.
-        path: the file: a replay (.rsr), written at the end, or a log of the SSL (.log, .log.gz).
+        path: the file: a replay (.rsr) of at most `MAX_SECONDS`, written at the end, or a log of
+            the SSL (.log, .log.gz), written at once. Clients cannot exchange robots meanwhile in
+            a match whose replay is recorded.
 
     Raises:
         OSError: the file cannot be written.
@@ -54,9 +62,11 @@ def record(server: Server, path: Path | str) -> Iterator[None]:
             raise ValueError(f"record: expected a folder that exists, got {path}")
         recorder = ReplayRecorder(server)
         server.listeners.append(recorder)
+        server.session.recorders += 1
         try:
             yield
         finally:
+            server.session.recorders -= 1
             server.listeners.remove(recorder)
             recorder.replay().save(path)
         return
@@ -80,7 +90,7 @@ def record(server: Server, path: Path | str) -> Iterator[None]:
 
 
 class ReplayRecorder:
-    """Keeps a frame of each `PERIOD`; a listener of a server."""
+    """Keeps a frame of each `PERIOD`, up to `MAX_SECONDS`; a listener of a server."""
 
     def __init__(self, server: Server) -> None:
         """Keep the state as it is.
@@ -110,6 +120,9 @@ class ReplayRecorder:
         """
         arena = server.session.arena
         index = len(self._rows)
+        if index * PERIOD > MAX_SECONDS:
+            self._leave_out(server)
+            return
         self._ticks += 1
         np.maximum(self._touched, arena.frame.robots.touched_ball[0], out=self._touched)
         self._events += game_events(self._robots, index, arena.play.events.of_world(0))
@@ -117,6 +130,15 @@ class ReplayRecorder:
             self._keep()
             rows = np.stack(self._rows[-2:])
             self._events += ball_events(self._config, self._robots, index, rows, self._commands[-1])
+
+    def _leave_out(self, server: Server) -> None:
+        """Count a tick that the replay lacks, and say so at the first one."""
+        counts = server.session.counts
+        if not counts[_LEFT_OUT]:
+            _LOGGER.warning(
+                "record: the replay is full after %g s; a log has no limit", MAX_SECONDS
+            )
+        counts[_LEFT_OUT] += 1
 
     def _keep(self) -> None:
         """Add the current state."""

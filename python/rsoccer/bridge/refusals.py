@@ -20,6 +20,8 @@ class Refusal(StrEnum):
     """A body cannot be where it is to be put: it overlaps another one, or is outside."""
     UNSUPPORTED_SPEED = "UNSUPPORTED_SPEED"
     """The simulation goes on as fast as clients answer, so it has no speed to set."""
+    RECORDING = "RECORDING"
+    """Robots cannot be exchanged while a replay is recorded: it has the same ones all the time."""
 
 
 class Reason(NamedTuple):

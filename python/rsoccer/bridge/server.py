@@ -6,21 +6,20 @@ time.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import Final
 
+from rsoccer import checks
+from rsoccer.bridge.awaited_answers import AwaitedAnswers
 from rsoccer.bridge.external_referee import ExternalReferee
 from rsoccer.bridge.session import Datagram, Session, is_loopback
 from rsoccer.bridge.settings import Settings
-from rsoccer.bridge.ssl_ports import SslPorts
+from rsoccer.bridge.ssl_ports import STATUS_PORTS, SslPorts
 from rsoccer.bridge.team import Address
 from rsoccer.bridge.vsss_ports import VsssPorts
 from rsoccer.protocols.errors import MessageError
+from rsoccer.protocols.layout import TEAM_NAMES
 
-RESEND_SECONDS: Final = 0.1
-"""Time after which a simulation that waits for clients sends its last frame again, s: a datagram
-can be lost."""
 MAX_TICKS: Final = 50
 """Ticks in one call, so that messages are read in between."""
 
@@ -35,30 +34,38 @@ class Server:
         is_local: whether only a referee on this machine is heard; `SocketLoop` sets it.
     """
 
-    def __init__(self, settings: Settings | None = None, epoch: float = 0.0) -> None:
+    def __init__(
+        self,
+        settings: Settings | None = None,
+        epoch: float = 0.0,
+        status_ports: tuple[int, int] = STATUS_PORTS,
+    ) -> None:
         """Begin a match.
 
         Args:
             settings: the settings; None for the defaults.
             epoch: Unix time of the simulated time 0, s.
+            status_ports: ports of clients to which grSim's status of blue and of yellow goes, 1 to
+                65535. VSSS has none.
 
         Raises:
             TypeError: an unknown option of the match.
-            ValueError: an option of the match, or a policy that does not fit.
+            ValueError: an option of the match, or a policy that does not fit; or no port.
         """
+        for name, port in zip(TEAM_NAMES, status_ports, strict=True):
+            checks.integer_in_range(f"ports: status_{name}", port, 1, 65535)
         settings = Settings() if settings is None else settings
         self.session = Session(settings, epoch)
         self.ports: SslPorts | VsssPorts
         if settings.league == "ssl":
-            self.ports = SslPorts(self.session)
+            self.ports = SslPorts(self.session, status_ports)
         else:
             self.ports = VsssPorts(self.session)
         self._referee = ExternalReferee(self.session) if settings.referee == "external" else None
         self.is_local = False
         self.listeners: list[Callable[[Server, list[Datagram]], None]] = []
         self._waits = False
-        self._sent: list[Datagram] = []
-        self._sent_at = -math.inf
+        self._awaited = AwaitedAnswers(self.session.teams, settings.client_timeout)
         self._has_had = [False, False]
 
     @property
@@ -88,6 +95,7 @@ class Server:
         if port == "referee" and self.is_local and not is_loopback(address):
             counts["referee: not of this machine"] += 1
             return []
+        answered = [] if self.session.clock else self._awaited.before_message()
         try:
             if port == "referee" and self._referee is not None:
                 self._referee.receive(data)
@@ -96,6 +104,9 @@ class Server:
         except MessageError as error:
             counts[f"{port}: unreadable"] += 1
             return self.ports.refuse(port, error, address)
+        finally:
+            if answered:
+                self._awaited.after_message(answered, now)
 
     def advance(self, now: float) -> list[Datagram]:
         """Play the ticks that are due.
@@ -126,7 +137,7 @@ class Server:
             return clock.next_due(now)
         if not self._is_waiting(now):
             return now
-        return self._sent_at + RESEND_SECONDS if self._sent else math.inf
+        return self._awaited.due
 
     def _tick(self, now: float) -> list[Datagram]:
         session = self.session
@@ -144,22 +155,19 @@ class Server:
     # -- As fast as clients answer ---------------------------------------------------------------
 
     def _advance_with_clients(self, now: float) -> list[Datagram]:
+        self._awaited.settle(now)
         if self._is_waiting(now):
-            if self._sent and now - self._sent_at >= RESEND_SECONDS:
-                self._sent_at = now
-                self.session.counts["frames: sent again"] += 1
-                return list(self._sent)
-            return []
+            copy = self._awaited.copy(now)
+            self.session.counts["frames: sent again"] += bool(copy)
+            return copy
         sent: list[Datagram] = []
         for _ in range(MAX_TICKS):
             reported = self._tick(now)
             sent += reported
             if self.session.arena.camera_frames:
                 self._waits = True
-                self._sent = [each for each in reported if each.port != "referee"]
-                self._sent_at = now
-                for team in self.session.teams:
-                    team.answered = False
+                frame = [each for each in reported if each.port != "referee"]
+                self._awaited.ask(frame, now)
                 break
         return sent
 

@@ -42,6 +42,7 @@ class Session:
         stand_ins: policies for robots without a client.
         clock: the clock; None if the simulation goes on as fast as clients answer.
         epoch: time of the start, Unix time, s.
+        recorders: recorders at work whose robots must stay the same.
         counts: numbers of messages by what became of them, such as "blue: received".
     """
 
@@ -74,6 +75,7 @@ class Session:
         )
         self.clock = None if settings.speed is None else ScaledClock(settings.speed)
         self.epoch = epoch
+        self.recorders = 0
         self.counts: Counter[str] = Counter()
         config = self.arena.config
         self._commands: Floats = np.zeros(

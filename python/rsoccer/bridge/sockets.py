@@ -22,6 +22,8 @@ LOOPBACK: Final = "127.0.0.1"
 """The interface that nothing outside of this machine reaches."""
 BATCH: Final = 32
 """Datagrams that are read from a socket before another socket and the clock have their turn."""
+BATCH_SECONDS: Final = 2.5e-3
+"""Time after which no more of them are read, s: half a tick, for messages that take long."""
 BUFFER: Final = 1 << 20
 """Bytes of a socket's buffers that are asked for."""
 LONGEST_WAIT: Final = 0.5
@@ -237,6 +239,7 @@ class SocketLoop:
     def _receive(self, name: str) -> None:
         """Read some datagrams of a port. What is left waits, so that a flood stops no tick."""
         source = self._sockets[name]
+        end = self._clock() + BATCH_SECONDS
         for _ in range(BATCH):
             try:
                 data, address = source.recvfrom(MAX_SIZE + 1)
@@ -245,6 +248,8 @@ class SocketLoop:
             except ConnectionError:
                 continue  # an earlier answer found nobody
             self._send(self.server.receive(name, data, address, self._clock()))
+            if self._clock() > end:
+                return
 
     def _send(self, datagrams: list[Datagram]) -> None:
         counts = self.server.session.counts

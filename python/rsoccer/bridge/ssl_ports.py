@@ -27,6 +27,10 @@ from rsoccer.protocols.simulator_control import ControlResult, read_command
 
 GEOMETRY_SECONDS: Final = 1.0
 """Simulated time between packets with the geometry, s."""
+STATUS_PORTS: Final = (SSL_PORTS["status_blue"], SSL_PORTS["status_yellow"])
+"""Ports of clients to which grSim's status of blue and of yellow goes."""
+MAX_COMMON_SIZE: Final = 4096
+"""Greatest length of a message that is read the fast way, in bytes: `parse` refuses long lists."""
 _TEAM_PORTS: Final = {"blue": BLUE, "yellow": YELLOW}
 
 
@@ -40,11 +44,7 @@ class SslPorts:
 
     inputs: Final = ("control", "blue", "yellow", "grsim")
 
-    def __init__(
-        self,
-        session: Session,
-        status_ports: tuple[int, int] = (SSL_PORTS["status_blue"], SSL_PORTS["status_yellow"]),
-    ) -> None:
+    def __init__(self, session: Session, status_ports: tuple[int, int] = STATUS_PORTS) -> None:
         """Open the ports of a match.
 
         Args:
@@ -132,7 +132,9 @@ class SslPorts:
         session, arena = self._session, self._session.arena
         seconds, kind = arena.seconds, simulation_pb2.RobotControl
         session.release_silent(team, now)  # a new client inherits no commands
-        common = self._reader.read(data, team.index, team.previous(seconds))
+        common = None
+        if len(data) <= MAX_COMMON_SIZE:
+            common = self._reader.read(data, team.index, team.previous(seconds))
         message = kind() if common else parse(kind, data)
         if not team.accept(address, now):
             return to_team_response([taken(team)])
@@ -193,7 +195,10 @@ class SslPorts:
                 reasons.append(Reason(Refusal.UNSUPPORTED_SPEED, text))
             else:
                 session.clock.set_speed(result.simulation_speed, now)
-        if result.robot_models:
+        if result.robot_models and session.recorders:
+            text = "robot_specs: expected none while a replay is recorded, got some"
+            reasons.append(Reason(Refusal.RECORDING, text))
+        elif result.robot_models:
             try:
                 session.arena.exchange_robots(result.robot_models)
             except ValueError as error:

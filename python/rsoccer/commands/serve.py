@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from tyro.conf import Positional, arg
 
+from rsoccer import checks
 from rsoccer.commands.entries import check_entries
 from rsoccer.commands.imports import Imports
 from rsoccer.commands.task_options import TASK_OPTIONS
@@ -74,7 +75,7 @@ class Serve(Imports):
     ] = ()
     """files to record to: a replay (.rsr) or a log of the SSL (.log, .log.gz)"""
     page: Annotated[int | None, arg(metavar="PORT", help_behavior_hint="(default: none)")] = None
-    """port of a page on this machine that shows the match in a browser"""
+    """port of a page on this machine that shows the match in a browser, 0 for any that is free"""
     seconds: Annotated[float, arg(help_behavior_hint="(default: until Ctrl-C)")] = math.inf
     """longest duration, in real time"""
     seed: int = 0
@@ -89,9 +90,18 @@ class Serve(Imports):
         """
         from rsoccer.bridge.server import Server
         from rsoccer.bridge.sockets import SocketLoop
+        from rsoccer.bridge.ssl_ports import STATUS_PORTS
+        from rsoccer.protocols.layout import TEAM_NAMES
 
+        if self.page is not None:
+            checks.integer_in_range("page", self.page, 0, 65535)
+        checks.number_in_range("seconds", self.seconds, 0.0, math.inf)
         settings, network = self.settings(), self.network()
-        server = Server(settings, epoch=time.time())
+        status_blue, status_yellow = (
+            network.ports.get(f"status_{name}", port)
+            for name, port in zip(TEAM_NAMES, STATUS_PORTS, strict=True)
+        )
+        server = Server(settings, time.time(), (status_blue, status_yellow))
         with ExitStack() as stack:
             self._watch(server, stack)
             loop = stack.enter_context(SocketLoop(server, network))

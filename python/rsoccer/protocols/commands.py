@@ -15,7 +15,7 @@ import numpy as np
 from rsoccer._core import RobotModel
 from rsoccer.arrays import Doubles, Floats, Mask
 from rsoccer.compat.wheel_kinematics import WheelKinematics
-from rsoccer.protocols.errors import Code, MessageError, Problem
+from rsoccer.protocols.errors import Code, MessageError, Problem, Problems
 from rsoccer.protocols.layout import TEAM_NAMES, WireLayout
 
 FULL_DRIBBLER_RPM: Final = 1432.0
@@ -183,7 +183,7 @@ class Collector:
             self.commands[:] = previous
         self._layout = layout
         self._given = np.zeros(config.n_robots, np.bool_)
-        self._problems: list[Problem] = []
+        self._problems = Problems()
         self._models = config.robots
 
     def row(self, team: int, robot_id: int) -> CommandRow | None:
@@ -211,11 +211,11 @@ class Collector:
         Args:
             error: the reason.
         """
-        self._problems.append(Problem(error.code, str(error)))
+        self._problems.add(error)
 
     def result(self) -> RobotCommands:
         """Return what has been read. Robots without an entry keep their commands and kicks."""
-        return RobotCommands(self.commands, self._given, tuple(self._problems))
+        return RobotCommands(self.commands, self._given, tuple(self._problems.listed()))
 
 
 class Motion(NamedTuple):

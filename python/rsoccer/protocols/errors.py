@@ -1,7 +1,10 @@
 """Errors of messages: one exception for what cannot be used, and codes that never change."""
 
 from enum import StrEnum
-from typing import NamedTuple
+from typing import Final, NamedTuple
+
+MAX_PROBLEMS: Final = 32
+"""Problems of a message that are listed, so that the answer fits into a datagram."""
 
 
 class Code(StrEnum):
@@ -10,7 +13,7 @@ class Code(StrEnum):
     UNREADABLE = "UNREADABLE"
     """The bytes are no message of the kind, are cut off, or lack a required field."""
     TOO_LARGE = "TOO_LARGE"
-    """The message is longer than a datagram can be."""
+    """The message is longer than a datagram can be, or has more robots than any match."""
     NOT_FINITE = "NOT_FINITE"
     """A number is NaN or infinite, or too large for the simulator."""
     OUT_OF_RANGE = "OUT_OF_RANGE"
@@ -45,6 +48,8 @@ class Code(StrEnum):
     """The protocol has no such event, or rSoccer has none."""
     BAD_LOG = "BAD_LOG"
     """The file is no log, is of another version, or damaged."""
+    MORE_PROBLEMS = "MORE_PROBLEMS"
+    """The message has more problems than are listed; the text has the number of the others."""
 
 
 class MessageError(ValueError):
@@ -75,3 +80,30 @@ class Problem(NamedTuple):
     """Stable code."""
     message: str
     """The field, what was expected and what came."""
+
+
+class Problems:
+    """Problems of a message while it is read: the first ones, and the number of the others."""
+
+    def __init__(self) -> None:
+        """Begin without problems."""
+        self._first: list[Problem] = []
+        self._others = 0
+
+    def add(self, error: MessageError) -> None:
+        """List a part of the message that is not honored.
+
+        Args:
+            error: the reason.
+        """
+        if len(self._first) < MAX_PROBLEMS:
+            self._first.append(Problem(error.code, str(error)))
+        else:
+            self._others += 1
+
+    def listed(self) -> list[Problem]:
+        """Return the first `MAX_PROBLEMS` problems, and one with the number of the others."""
+        if not self._others:
+            return list(self._first)
+        text = f"message: expected at most {MAX_PROBLEMS} problems, got {self._others} more"
+        return [*self._first, Problem(Code.MORE_PROBLEMS, text)]

@@ -148,14 +148,13 @@ def read_replacement(
         except MessageError as error:
             placement.add(error)
     if message.replacement.HasField("ball"):
-        x, y, v_x, v_y = (
-            getattr(message.replacement.ball, name)
-            if message.replacement.ball.HasField(name)
-            else None
-            for name in ("x", "y", "vx", "vy")
+        ball = message.replacement.ball
+        x, y, v_x, v_y = given = tuple(
+            getattr(ball, name) if ball.HasField(name) else None for name in ("x", "y", "vx", "vy")
         )
         try:
-            placement.put_ball((x, y, 0.0), (v_x, v_y, 0.0))
+            if any(number is not None for number in given):
+                placement.put_ball((x, y, 0.0), (v_x, v_y, 0.0))
         except MessageError as error:
             placement.add(error)
     return placement

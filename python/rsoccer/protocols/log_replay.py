@@ -67,7 +67,8 @@ def log_to_replay(
     states = LogStates(layout, survey.tracker)
     frames = _Frames(officials, states, first, time_step)
     for seconds, message in messages(path):
-        frames.advance(seconds - _TOLERANCE)
+        # A referee's packet may have any time; states have those that the check has seen.
+        frames.advance(min(seconds, survey.last) - _TOLERANCE)
         if isinstance(message, referee_pb2.Packet):
             officials.add(message)
         else:

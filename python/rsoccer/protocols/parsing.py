@@ -15,11 +15,17 @@ MAX_SIZE: Final = 65507
 MAX_MAGNITUDE: Final = 1e9
 """Greatest magnitude of a number: single precision can still square it."""
 
+MAX_ROBOTS: Final = 128
+"""Greatest number of robots that a message commands, puts or describes: four times the 32 that the
+protocols can tell apart. A datagram has room for 16,000, which take longer to read than a tick."""
+
 LABEL_REPEATED: Final = 3
 """Label of a field with a list of values."""
 
 _M = TypeVar("_M", bound=Message)
 _FLOATS: Final = (FieldDescriptor.TYPE_FLOAT, FieldDescriptor.TYPE_DOUBLE)
+_ROBOTS: Final = frozenset({"robot_commands", "teleport_robot", "robot_specs", "robots"})
+"""Fields with a list of robots."""
 _TIMES: Final = frozenset(
     {
         *("t_capture", "t_sent", "t_capture_camera"),
@@ -38,7 +44,7 @@ def parse(kind: type[_M], data: bytes) -> _M:
 
     Returns:
         A message with all required fields whose numbers are finite and below `MAX_MAGNITUDE`;
-        time stamps only finite.
+        time stamps only finite. Its lists of robots have at most `MAX_ROBOTS` entries.
 
     Raises:
         MessageError: anything else. No other error is raised, whatever the bytes are.
@@ -62,13 +68,14 @@ def parse(kind: type[_M], data: bytes) -> _M:
 
 
 def check_finite(message: Message) -> None:
-    """Refuse numbers that are not finite, or too large to compute with.
+    """Refuse numbers that are not finite or too large to compute with, and endless lists.
 
     Args:
         message: the message.
 
     Raises:
-        MessageError: a number is NaN, infinite, or beyond `MAX_MAGNITUDE`.
+        MessageError: a number is NaN, infinite, or beyond `MAX_MAGNITUDE`; or a list of robots has
+            more than `MAX_ROBOTS` entries.
     """
     check = _checker(message.DESCRIPTOR)
     if check is not None:
@@ -96,6 +103,9 @@ def _checker(kind: Descriptor) -> Callable[[Message], None] | None:
 
 def _check(message: Message) -> None:
     for field, value in message.ListFields():
+        if field.name in _ROBOTS and is_repeated(field) and len(value) > MAX_ROBOTS:
+            text = f"{field.name}: expected at most {MAX_ROBOTS} robots, got {len(value)}"
+            raise MessageError(Code.TOO_LARGE, text)
         if field.type in _FLOATS:
             limit = math.inf if field.name in _TIMES else MAX_MAGNITUDE
             for number in value if is_repeated(field) else (value,):

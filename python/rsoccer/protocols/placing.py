@@ -7,7 +7,7 @@ import numpy as np
 from rsoccer._core import MAX_PLACED_ANGULAR_VELOCITY, MAX_PLACED_HEIGHT, MAX_PLACED_SPEED
 from rsoccer.arrays import Floats, Mask
 from rsoccer.frame import Frame
-from rsoccer.protocols.errors import Code, MessageError, Problem
+from rsoccer.protocols.errors import Code, MessageError, Problem, Problems
 from rsoccer.protocols.layout import WireLayout
 from rsoccer.spawn import set_rolling_spin
 
@@ -20,7 +20,6 @@ class Placement:
         ball: whether the ball is put somewhere.
         robots: (robots,) robots that are put somewhere, taken off the field or put on it.
         safely: whether bodies may be moved out of each other, instead of an error.
-        problems: parts of messages that are not honored.
     """
 
     def __init__(self, layout: WireLayout, frame: Frame, world: int = 0) -> None:
@@ -40,7 +39,7 @@ class Placement:
         self.ball = False
         self.robots: Mask = np.zeros(layout.config.n_robots, np.bool_)
         self.safely = False
-        self.problems: list[Problem] = []
+        self._problems = Problems()
 
     @property
     def row(self) -> Floats:
@@ -48,13 +47,18 @@ class Placement:
         row: Floats = self.frame.rows[0]
         return row
 
+    @property
+    def problems(self) -> list[Problem]:
+        """Parts of messages that are not honored: the first ones, and the number of the others."""
+        return self._problems.listed()
+
     def add(self, error: MessageError) -> None:
         """List a part of a message that is not honored.
 
         Args:
             error: the reason.
         """
-        self.problems.append(Problem(error.code, str(error)))
+        self._problems.add(error)
 
     def put_ball(
         self,

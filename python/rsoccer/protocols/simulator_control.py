@@ -17,6 +17,8 @@ from rsoccer.protocols.robot_specs import to_robot_model
 from rsoccer.protocols.schemas import simulation_pb2
 
 _TEAMS: Final = {simulation_pb2.BLUE: BLUE, simulation_pb2.YELLOW: YELLOW}
+_PLACES: Final = ("x", "y", "orientation", "v_x", "v_y", "v_angular")
+"""Fields of a robot's teleport that put it somewhere."""
 _MAX_SPEED: Final = 1e6
 """Greatest speed of the simulation, times real time: beyond what any computer reaches."""
 
@@ -95,11 +97,10 @@ def _teleport_ball(placement: Placement, ball: simulation_pb2.TeleportBall) -> N
     def given(name: str) -> float | None:
         return getattr(ball, name) if ball.HasField(name) else None
 
-    placement.put_ball(
-        (given("x"), given("y"), given("z")),
-        (given("vx"), given("vy"), given("vz")),
-        roll=ball.roll,
-    )
+    position = (given("x"), given("y"), given("z"))
+    velocity = (given("vx"), given("vy"), given("vz"))
+    if ball.roll or any(number is not None for number in (*position, *velocity)):
+        placement.put_ball(position, velocity, roll=ball.roll)
     placement.safely |= ball.teleport_safely
 
 
@@ -109,12 +110,17 @@ def _teleport_robot(
     slot = _slot(layout, robot.id)
     if robot.by_force:
         raise MessageError(Code.UNSUPPORTED_BY_FORCE, "by_force: expected false, got true")
+    present = robot.present if robot.HasField("present") else None
+    if present is not False and not any(robot.HasField(name) for name in _PLACES):
+        on_field = not placement.frame.robots.absent[0, slot]
+        if on_field or present is None:
+            return  # nothing asks for a change
     placement.put_robot(
         slot,
         (robot.x if robot.HasField("x") else None, robot.y if robot.HasField("y") else None),
         robot.orientation if robot.HasField("orientation") else None,
         (robot.v_x, robot.v_y, robot.v_angular),
-        robot.present if robot.HasField("present") else None,
+        present,
     )
 
 
@@ -138,7 +144,8 @@ def _read_config(layout: WireLayout, config: simulation_pb2.Config, result: Cont
             placement.add(MessageError(Code.UNSUPPORTED_CUSTOM, text))
         try:
             slot = _slot(layout, specs.id)
-            result.robot_models[slot] = to_robot_model(layout.config.robots[slot], specs)
+            model = result.robot_models.get(slot, layout.config.robots[slot])
+            result.robot_models[slot] = to_robot_model(model, specs)
         except MessageError as error:
             placement.add(error)
 

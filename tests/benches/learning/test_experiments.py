@@ -11,7 +11,15 @@ from rsoccer.train import Args
 
 def test_the_study_has_all_groups_and_runs() -> None:
     assert len(STUDY.runs()) == sum(e.seeds for e in STUDY.experiments)
-    groups = {"ppo", "baselines", "calibration", "ablation", "cooperation", "robust", "robust-shipped"}
+    groups = {
+        "ppo",
+        "baselines",
+        "calibration",
+        "ablation",
+        "cooperation",
+        "robust",
+        "robust-shipped",
+    }
     assert {e.group for e in STUDY.experiments} == groups
 
 
