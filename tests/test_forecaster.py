@@ -9,7 +9,12 @@ import pytest
 import rsoccer
 from rsoccer import Forecaster, Matches, Sensing, SimConfig, Simulator
 from rsoccer.arrays import Floats
+from rsoccer.evaluate.episodes import LearnerPolicy
 from rsoccer.frame import Frame
+from rsoccer.policies import make_policy
+from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
+from rsoccer.rng import WorldRng
+from rsoccer.task import Task
 from rsoccer.tasks import SslSelfPlay, VssSelfPlay
 from tests.helpers import same
 
@@ -88,7 +93,8 @@ def test_each_team_observes_its_own_forecast() -> None:
     robots = np.arange(4)
     assert state.known_to_robots(robots[:2]) is blue
     assert state.known_to_robots(robots[2:]) is yellow
-    assert state.known_to_robots(robots) is state.sensed
+    with pytest.raises(ValueError, match=r"expected robots of one team.*got \[0, 1, 2, 3\]"):
+        state.known_to_robots(robots)
     for team, known in enumerate((blue, yellow)):
         view = state.viewpoint.new_view(3)
         state.viewpoint.fill(known, view)
@@ -134,6 +140,81 @@ def test_matches_continue_exactly_from_a_saved_state(task: str) -> None:
         for other in (theirs, copied):
             assert same(first.observations, other.step(actions[step]).observations)
             assert same(ours.play.known_to(1).rows, other.play.known_to(1).rows)
+
+
+class Watcher(Policy):
+    """A policy that notes what it is told of the match, and drives in circles."""
+
+    observes: Observes = "view"
+
+    def __init__(self, task: Task) -> None:
+        super().__init__(task)
+        self.told: list[tuple[list[int], Floats]] = []
+
+    def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
+        assert inputs.match is not None
+        self.told.append((inputs.match.robots.tolist(), inputs.match.rows.copy()))
+        chosen = np.zeros(inputs.action_shape, np.float32)
+        chosen[..., :2] = inputs.match.rows[:, None, :2] + rng.uniform(-1, 1)[:, None, None]
+        return np.tanh(chosen)
+
+
+@pytest.mark.parametrize(
+    ("sensing", "groups"),
+    [
+        (Sensing(**LATE), [[0, 1], [2, 3]]),
+        (Sensing(**LATE, forecast_others=1.0), [[0, 1, 2, 3]]),
+        (Sensing(command_delay=DELAY), [[0, 1, 2, 3]]),
+        (None, [[0, 1, 2, 3]]),
+    ],
+    ids=["forecasts", "forecasts of all", "late", "exact"],
+)
+def test_a_policy_of_both_teams_knows_of_each_what_that_team_knows(
+    sensing: Sensing | None, groups: list[list[int]]
+) -> None:
+    task = TASKS["SSLSelfPlay-v0"]
+    watcher = Watcher(task)
+    matches = Matches(task, 2, 3, controllers={"all": watcher}, sensing=sensing)
+    learning = Matches(task, 2, 3, sensing=sensing)
+    observations = learning.reset()
+    learner = Watcher(task)
+    learners = LearnerPolicy(learner, learning, 3)
+    matches.reset()
+    none = np.zeros((2, 0, matches.action_size), np.float32)
+    differ = False
+    for _ in range(12):
+        for policy, play in ((watcher, matches.play), (learner, learning.play)):
+            known = [play.known_to(team).rows.copy() for team in (0, 1)]
+            policy.told.clear()
+            if policy is watcher:
+                matches.step(none)
+            else:
+                observations = learning.step(learners.act(observations)).observations
+            assert [robots for robots, _ in policy.told] == groups
+            for robots, rows in policy.told:
+                assert same(rows, known[robots[0] // 2])
+            differ |= not same(known[0], known[1])
+    assert differ == (len(groups) == 2)
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_a_policy_of_both_teams_plays_as_two_policies(task: str) -> None:
+    one, two = (
+        Matches(TASKS[task], 2, 3, controllers=controllers, sensing=Sensing(**LATE))
+        for controllers in (
+            {"all": "scripted"},
+            {"blue": "scripted", "yellow": make_policy("scripted", TASKS[task])},
+        )
+    )
+    one.reset()
+    two.reset()
+    none = np.zeros((2, 0, one.action_size), np.float32)
+    start = one.frame.rows.copy()
+    for _ in range(40):
+        one.step(none)
+        two.step(none)
+        assert same(one.frame.rows, two.frame.rows)
+    assert not same(one.frame.rows, start)
 
 
 def test_only_teams_that_observe_forecast() -> None:
