@@ -10,6 +10,7 @@ import rsoccer
 from rsoccer import Forecaster, Matches, Sensing, SimConfig, Simulator
 from rsoccer._core import SENSING_NUMBERS
 from rsoccer.arrays import Floats
+from rsoccer.controllers import Controllers
 from rsoccer.evaluate.episodes import LearnerPolicy
 from rsoccer.frame import Frame
 from rsoccer.policies import make_policy
@@ -198,7 +199,6 @@ def test_a_policy_of_both_teams_knows_of_each_what_that_team_knows(
     assert differ == (len(groups) == 2)
 
 
-@pytest.mark.parametrize("task", TASKS)
 class Spinner(Policy):
     """A policy that looks, and acts without regard to it."""
 
@@ -210,13 +210,15 @@ class Spinner(Policy):
         return chosen
 
 
+@pytest.mark.parametrize("task", TASKS)
 def test_a_policy_of_both_teams_plays_as_two_policies(task: str) -> None:
+    both: tuple[Controllers, Controllers] = (
+        {"all": "scripted"},
+        {"blue": "scripted", "yellow": make_policy("scripted", TASKS[task])},
+    )
     one, two = (
         Matches(TASKS[task], 2, 3, controllers=controllers, sensing=Sensing(**LATE))
-        for controllers in (
-            {"all": "scripted"},
-            {"blue": "scripted", "yellow": make_policy("scripted", TASKS[task])},
-        )
+        for controllers in both
     )
     one.reset()
     two.reset()
@@ -274,8 +276,7 @@ def test_a_team_without_opponents_forecasts_into_one_frame() -> None:
 def test_drawn_delays_are_not_known() -> None:
     """A match whose commands arrive earlier forecasts with the delay of its configuration."""
     sensing = Sensing(**LATE, forecast_others=1.0, command_timeout=0.5)
-    others = {"forecast": 1.0, "forecast_others": 1.0, "command_timeout": 0.06}
-    drawn = Sensing(command_delay=0.04, **others)
+    drawn = Sensing(command_delay=0.04, command_timeout=0.06, forecast=1.0, forecast_others=1.0)
     config = SimConfig("ssl_b", 2, 1, sensing=sensing)
     simulator, forecaster = Simulator(config), Forecaster(config)
     numbers = np.array([[getattr(drawn, name) for name in SENSING_NUMBERS]], np.float32)
