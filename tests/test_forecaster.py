@@ -145,17 +145,17 @@ def test_matches_continue_exactly_from_a_saved_state(task: str) -> None:
 
 
 class Watcher(Policy):
-    """A policy that notes what it is told of the match, and drives in circles."""
+    """A policy that notes what it is given of the match, and drives in circles."""
 
     observes: Observes = "view"
 
     def __init__(self, task: Task) -> None:
         super().__init__(task)
-        self.told: list[tuple[list[int], Floats]] = []
+        self.given: list[tuple[list[int], Floats]] = []
 
     def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
         assert inputs.match is not None
-        self.told.append((inputs.match.robots.tolist(), inputs.match.rows.copy()))
+        self.given.append((inputs.match.robots.tolist(), inputs.match.rows.copy()))
         chosen = np.zeros(inputs.action_shape, np.float32)
         chosen[..., :2] = inputs.match.rows[:, None, :2] + rng.uniform(-1, 1)[:, None, None]
         return np.tanh(chosen)
@@ -187,13 +187,13 @@ def test_a_policy_of_both_teams_knows_of_each_what_that_team_knows(
     for _ in range(12):
         for policy, play in ((watcher, matches.play), (learner, learning.play)):
             known = [play.known_to(team).rows.copy() for team in (0, 1)]
-            policy.told.clear()
+            policy.given.clear()
             if policy is watcher:
                 matches.step(none)
             else:
                 observations = learning.step(learners.act(observations)).observations
-            assert [robots for robots, _ in policy.told] == groups
-            for robots, rows in policy.told:
+            assert [robots for robots, _ in policy.given] == groups
+            for robots, rows in policy.given:
                 assert same(rows, known[robots[0] // 2])
             differ |= not same(known[0], known[1])
     assert differ == (len(groups) == 2)
