@@ -8,8 +8,15 @@ import pytest
 
 import rsoccer
 from rsoccer import Forecaster, Matches, Sensing, SimConfig, Simulator
+from rsoccer._core import SENSING_NUMBERS
 from rsoccer.arrays import Floats
+from rsoccer.controllers import Controllers
+from rsoccer.evaluate.episodes import LearnerPolicy
 from rsoccer.frame import Frame
+from rsoccer.policies import make_policy
+from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
+from rsoccer.rng import WorldRng
+from rsoccer.task import Task
 from rsoccer.tasks import SslSelfPlay, VssSelfPlay
 from tests.helpers import same
 
@@ -88,7 +95,8 @@ def test_each_team_observes_its_own_forecast() -> None:
     robots = np.arange(4)
     assert state.known_to_robots(robots[:2]) is blue
     assert state.known_to_robots(robots[2:]) is yellow
-    assert state.known_to_robots(robots) is state.sensed
+    with pytest.raises(ValueError, match=r"expected robots of one team.*got \[0, 1, 2, 3\]"):
+        state.known_to_robots(robots)
     for team, known in enumerate((blue, yellow)):
         view = state.viewpoint.new_view(3)
         state.viewpoint.fill(known, view)
@@ -136,13 +144,161 @@ def test_matches_continue_exactly_from_a_saved_state(task: str) -> None:
             assert same(ours.play.known_to(1).rows, other.play.known_to(1).rows)
 
 
-def test_only_teams_that_observe_forecast() -> None:
-    matches = Matches("VSS-v0", 2, sensing=Sensing(**LATE))
+class Watcher(Policy):
+    """A policy that notes what it is given of the match, and drives in circles."""
+
+    observes: Observes = "view"
+
+    def __init__(self, task: Task) -> None:
+        super().__init__(task)
+        self.given: list[tuple[list[int], Floats]] = []
+
+    def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
+        assert inputs.match is not None
+        self.given.append((inputs.match.robots.tolist(), inputs.match.rows.copy()))
+        chosen = np.zeros(inputs.action_shape, np.float32)
+        chosen[..., :2] = inputs.match.rows[:, None, :2] + rng.uniform(-1, 1)[:, None, None]
+        return np.tanh(chosen)
+
+
+@pytest.mark.parametrize(
+    ("sensing", "groups"),
+    [
+        (Sensing(**LATE), [[0, 1], [2, 3]]),
+        (Sensing(**LATE, forecast_others=1.0), [[0, 1, 2, 3]]),
+        (Sensing(command_delay=DELAY), [[0, 1, 2, 3]]),
+        (None, [[0, 1, 2, 3]]),
+    ],
+    ids=["forecasts", "forecasts of all", "late", "exact"],
+)
+def test_a_policy_of_both_teams_knows_of_each_what_that_team_knows(
+    sensing: Sensing | None, groups: list[list[int]]
+) -> None:
+    task = TASKS["SSLSelfPlay-v0"]
+    watcher = Watcher(task)
+    matches = Matches(task, 2, 3, controllers={"all": watcher}, sensing=sensing)
+    learning = Matches(task, 2, 3, sensing=sensing)
+    observations = learning.reset()
+    learner = Watcher(task)
+    learners = LearnerPolicy(learner, learning, 3)
+    matches.reset()
+    none = np.zeros((2, 0, matches.action_size), np.float32)
+    differ = False
+    for _ in range(12):
+        for policy, play in ((watcher, matches.play), (learner, learning.play)):
+            known = [play.known_to(team).rows.copy() for team in (0, 1)]
+            policy.given.clear()
+            if policy is watcher:
+                matches.step(none)
+            else:
+                observations = learning.step(learners.act(observations)).observations
+            assert [robots for robots, _ in policy.given] == groups
+            for robots, rows in policy.given:
+                assert same(rows, known[robots[0] // 2])
+            differ |= not same(known[0], known[1])
+    assert differ == (len(groups) == 2)
+
+
+class Spinner(Policy):
+    """A policy that looks, and acts without regard to it."""
+
+    observes: Observes = "view"
+
+    def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
+        chosen = np.zeros(inputs.action_shape, np.float32)
+        chosen[..., 2] = rng.uniform(0.5, 1.0)[:, None]  # it turns
+        return chosen
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_a_policy_of_both_teams_plays_as_two_policies(task: str) -> None:
+    both: tuple[Controllers, Controllers] = (
+        {"all": "scripted"},
+        {"blue": "scripted", "yellow": make_policy("scripted", TASKS[task])},
+    )
+    one, two = (
+        Matches(TASKS[task], 2, 3, controllers=controllers, sensing=Sensing(**LATE))
+        for controllers in both
+    )
+    one.reset()
+    two.reset()
+    none = np.zeros((2, 0, one.action_size), np.float32)
+    start = one.frame.rows.copy()
+    for _ in range(40):
+        one.step(none)
+        two.step(none)
+        assert same(one.frame.rows, two.frame.rows)
+    assert not same(one.frame.rows, start)
+
+
+@pytest.mark.parametrize("blind", ["blue", "yellow", "all"])
+def test_only_teams_that_observe_forecast(blind: str) -> None:
+    """The others know what is sensed, which is what a match without forecasts has."""
+    task = TASKS["SSLSelfPlay-v0"]
+    forecasting, plain = (
+        Matches(
+            task,
+            2,
+            3,
+            controllers={"all": Spinner(task), blind: "ou"},
+            sensing=Sensing(command_delay=DELAY, forecast=forecast),
+        )
+        for forecast in (1.0, 0.0)
+    )
+    none = np.zeros((2, 0, forecasting.action_size), np.float32)
+    for matches in (forecasting, plain):
+        matches.reset()
+        for _ in range(12):
+            matches.step(none)
+    play = forecasting.play
+    known = {"blue": play.known_to(0), "yellow": play.known_to(1)}
+    assert same(forecasting.frame.rows, plain.frame.rows)
+    for team, frame in known.items():
+        sensed = plain.play.known_to(0)
+        assert same(frame.rows, sensed.rows) == (blind in (team, "all"))
+        assert same(getattr(play.sensed, team).data, getattr(frame, team).data)
+    assert same(play.sensed.ball.data, known["blue"].ball.data)
+    saved = forecasting.state_dict()
+    forecasting.step(none)
+    after = play.known_to(0).rows.copy(), play.known_to(1).rows.copy()
+    forecasting.load_state_dict(saved)
+    forecasting.step(none)
+    assert same(play.known_to(0).rows, after[0])
+    assert same(play.known_to(1).rows, after[1])
+
+
+def test_a_team_without_opponents_forecasts_into_one_frame() -> None:
+    matches = Matches("SSLGoToBall-v0", 2, sensing=Sensing(**LATE))
     matches.reset()
     assert matches.play.known_to(0) is matches.play.known_to(1) is matches.play.sensed
-    yellow = Matches("VSSSelfPlay-v0", 2, controllers={"blue": "zero"}, sensing=Sensing(**LATE))
-    yellow.reset()
-    assert yellow.play.known_to(0) is yellow.play.sensed
+
+
+def test_drawn_delays_are_not_known() -> None:
+    """A match whose commands arrive earlier forecasts with the delay of its configuration."""
+    sensing = Sensing(**LATE, forecast_others=1.0, command_timeout=0.5)
+    drawn = Sensing(command_delay=0.04, command_timeout=0.06, forecast=1.0, forecast_others=1.0)
+    config = SimConfig("ssl_b", 2, 1, sensing=sensing)
+    simulator, forecaster = Simulator(config), Forecaster(config)
+    numbers = np.array([[getattr(drawn, name) for name in SENSING_NUMBERS]], np.float32)
+    simulator.begin_senses(np.ones(1, np.bool_), np.ones(1, np.uint64), numbers)
+    row = np.zeros((1, config.row_size), np.float32)
+    simulator.read(row)
+    rng = np.random.default_rng(0)
+    commands = np.zeros((1, 3, 6), np.float32)
+    known, forecast, ahead = np.empty_like(row), np.empty_like(row), 0.0
+    for step in range(20):
+        before = np.array([step * config.time_step])
+        if step % 5 == 0:
+            commands[..., :3] = rng.uniform(-1, 1, (1, 3, 3))
+        forecaster.send(commands, before)
+        simulator.step(commands, out=row)
+        simulator.sense(known)
+        now = before + config.time_step
+        forecaster.forecast(row, now, now, forecast)
+        motions = [motion(Frame(rows, 2, 1)) for rows in (known, forecast, row)]
+        np.testing.assert_allclose(motions[0], motions[1], atol=1e-5)
+        ahead = max(ahead, np.abs(motions[0] - motions[2]).max())
+    assert ahead > 0.05
 
 
 def test_a_forecast_is_of_the_models_and_not_of_the_varied_world() -> None:
@@ -203,6 +359,28 @@ def test_a_forecaster_on_its_own_bridges_the_delay() -> None:
     copied.forecast(row, now, now, theirs)
     assert same(ours, theirs)
     assert repr(copied) == 'Forecaster(1 worlds, known="all")'
+
+
+def test_rows_of_forgotten_times_are_refused() -> None:
+    forecaster = Forecaster(CONFIG)
+    rows = [np.empty_like(ROW) for _ in range(3)]
+    for time, speed in ((0.0, 5.0), (0.1, 20.0), (0.2, -10.0)):
+        forecaster.send(np.full((1, 1, 2), speed, np.float32), ZERO + time)
+    forecaster.forecast(ROW, ZERO + 0.05, ZERO + 0.3, rows[0])
+    forecaster.forecast(ROW, ZERO + 0.15, ZERO + 0.3, rows[1])
+    restored = pickle.loads(pickle.dumps(forecaster))
+    for each in (forecaster, restored):
+        before = each.snapshot()
+        message = r"seen: the row of world 0 is of 0.05 s, expected 0.1 s or later"
+        with pytest.raises(ValueError, match=message):
+            each.forecast(ROW, ZERO + 0.05, ZERO + 0.3, rows[2])
+        assert each.snapshot() == before
+        each.forecast(ROW, ZERO + 0.1, ZERO + 0.3, rows[2])  # the commands since are known
+        each.forecast(ROW, ZERO + 0.15, ZERO + 0.3, rows[2])
+        assert same(rows[2], rows[1])
+    assert not same(rows[0], rows[1])
+    forecaster.reset(np.ones(1, np.bool_))
+    forecaster.forecast(ROW, ZERO, ZERO + 0.3, rows[2])
 
 
 def test_commands_of_other_robots_are_ignored() -> None:

@@ -1686,7 +1686,7 @@ class Forecaster:
         """Take note of commands that were sent.
 
         With `known="all"`, the commands of robots of others may be those of a policy that is their
-        model.
+        model. Commands that act no more 2 s before these are forgotten.
 
         Args:
             commands: Commands (n, robots, command), float32, SI units; those of robots that are not
@@ -1713,7 +1713,7 @@ class Forecaster:
         Bodies of the rows may overlap each other or walls, as those of `Simulator.place_estimates`
         may. Touches, collisions and crossings are those of the last control step of the forecast.
         A row that is not older than the effect of the commands is written as it is. Commands that
-        act before `seen` are forgotten: later rows are not of earlier times.
+        act no more at `seen` are forgotten, so a later call refuses rows that are of earlier times.
 
         Args:
             rows: State rows of what is known (n, row), float32.
@@ -1722,8 +1722,8 @@ class Forecaster:
             out: Output (n, row), float32; may be `rows`.
 
         Raises:
-            ValueError: A row is not finite or more than 2 s older than its forecast, or an array
-                has another shape. Nothing has changed.
+            ValueError: A row is not finite, more than 2 s older than its forecast or of a time
+                whose commands are forgotten, or an array has another shape. Nothing has changed.
             TypeError: An array has another type. Nothing has changed.
         """
 
@@ -1943,15 +1943,15 @@ class Simulator:
         self,
         out: NDArray[np.float32],
         active: NDArray[np.bool_] | None = None,
-        known: str = "blue",
+        known: str | None = "blue",
     ) -> None:
         """Write what the robots know; the state rows without `config.sensing`.
 
         Args:
             out: Output (n, row), float32; the rows of active worlds are written.
             active: Mask of the worlds to write (n,), bool. None for all.
-            known: Robots whose commands on their way a forecast knows: "blue", "yellow" or "all".
-                Without a forecast all know the same.
+            known: Robots whose commands on their way a forecast knows: "blue", "yellow" or "all";
+                None for what is known without a forecast. Without one all know the same.
 
         Raises:
             ValueError: An array has another shape, `out` is not writeable, or another `known`.

@@ -146,14 +146,16 @@ class Assignment:
     observers: NDArray[np.intp]
     """(observers,) indices of the robots that observe, in the order of a state row."""
     groups: list[PolicyGroup]
-    """Robots with a policy, one group per policy."""
+    """Robots with a policy, one group per policy, or per policy and team; see `assign`."""
 
     def __post_init__(self) -> None:
         """Find a slice of the learners, which is faster than indices."""
         self.written: Indices = _slice_if_possible(self.learners)
 
 
-def assign(task: Task, controllers: Controllers | None, worlds: int) -> Assignment:
+def assign(
+    task: Task, controllers: Controllers | None, worlds: int, *, by_team: bool = False
+) -> Assignment:
     """Assign a controller to every robot of a task.
 
     Args:
@@ -161,6 +163,8 @@ def assign(task: Task, controllers: Controllers | None, worlds: int) -> Assignme
         controllers: replacements for the task's default controllers.
         worlds: number of worlds; the groups' streams and memory have this length and are not
             started yet.
+        by_team: whether teams know different states: a policy that observes then has a group for
+            each team that it plays, with streams and memory of its own.
 
     Returns:
         The learners, the observers, and one group for each policy.
@@ -173,19 +177,23 @@ def assign(task: Task, controllers: Controllers | None, worlds: int) -> Assignme
     learners = [
         i for i, controller in enumerate(resolved.values()) if isinstance(controller, Learn)
     ]
-    robots_of: dict[int | str, list[int]] = {}
+    robots_of: dict[tuple[int | str, str], list[int]] = {}
     policy_of: dict[int | str, Policy] = {}
     for robot, controller in enumerate(resolved.values()):
         if isinstance(controller, Learn):
             continue
         key = controller if isinstance(controller, str) else id(controller)
-        robots_of.setdefault(key, []).append(robot)
         if key not in policy_of:
             policy_of[key] = make_policy(controller, task)
-    observing = [key for key, policy in policy_of.items() if policy.observes != "nothing"]
-    observers = np.array(sorted(sum((robots_of[key] for key in observing), learners)), np.intp)
+        is_divided = by_team and policy_of[key].observes != "nothing"
+        team = team_of(task.robots[robot]) if is_divided else "all"
+        robots_of.setdefault((key, team), []).append(robot)
+    observing = [
+        robots for (key, _), robots in robots_of.items() if policy_of[key].observes != "nothing"
+    ]
+    observers = np.array(sorted(sum(observing, learners)), np.intp)
     groups = []
-    for key, robots in robots_of.items():
+    for (key, _), robots in robots_of.items():
         rng = WorldRng.seeded(0, worlds)
         shape = (worlds, len(robots), task.action_size)
         memory = _fresh_memory(policy_of[key], shape, rng)

@@ -78,7 +78,7 @@ class Play:
         """(n, ...) current state as the robots know it.
 
         Teams that forecast know different things (`known_to`): then each robot is as its own team
-        knows it, and the ball as blue does.
+        knows it, and the ball as blue does. A team without observers does not forecast.
         """
         return self.frame if self.senses is None else self.senses.frame
 
@@ -91,15 +91,29 @@ class Play:
         return self.frame if self.senses is None else self.senses.known_to(team)
 
     def known_to_robots(self, robots: NDArray[np.intp]) -> Frame:
-        """Return (n, ...) the current state as some robots know it: `sensed` if of both teams.
+        """Return (n, ...) the current state as some robots know it.
 
         Args:
-            robots: (k,) indices of robots in the order of a state row.
+            robots: (k,) indices of robots in the order of a state row; of one team where teams know
+                different states (`teams_differ`).
+
+        Raises:
+            ValueError: robots of both teams, which know different states.
         """
-        are_yellow = robots >= self.frame.n_blue
-        if not len(robots) or are_yellow.any() != are_yellow.all():
+        if not self.teams_differ or not len(robots):
             return self.sensed
+        are_yellow = robots >= self.frame.n_blue
+        if are_yellow.any() != are_yellow.all():
+            raise ValueError(
+                "robots: expected robots of one team, because teams know different states, "
+                f"got {robots.tolist()}"
+            )
         return self.known_to(int(are_yellow[0]))
+
+    @property
+    def teams_differ(self) -> bool:
+        """Whether teams know different states, by forecasts of their own."""
+        return self.senses is not None and self.senses.teams is not None
 
     @property
     def sensed_view(self) -> View:

@@ -32,14 +32,14 @@ class SensingStepper(Protocol):
                 None.
         """
 
-    def sense(self, out: Floats, active: Mask | None = None, known: str = "blue") -> None:
+    def sense(self, out: Floats, active: Mask | None = None, known: str | None = "blue") -> None:
         """Write what the robots know.
 
         Args:
             out: (n, row) output; the rows of the active worlds are overwritten.
             active: (n,) bool, worlds to write; all if None.
-            known: team whose robots' commands on their way a forecast knows, "blue" or "yellow".
-                Without `forecast` both know the same, and it is not given.
+            known: team whose robots' commands on their way a forecast knows, "blue" or "yellow";
+                None for no forecast. Without `forecast` all know the same, and it is not given.
         """
 
 
@@ -71,9 +71,9 @@ class SimulatedSenses(Senses):
     """Number of its worlds."""
     ranges: NumberRanges | None
     """Ranges of numbers that each episode draws; None if all are those of the configuration."""
-    observing: tuple[int, ...]
-    """Teams that know different things by their forecasts, 0 for blue and 1 for yellow; () if all
-    robots know the same."""
+    observing: tuple[int, ...] | None
+    """Teams with forecasts of their own, 0 for blue and 1 for yellow; the others know what is
+    sensed. None if all robots know the same."""
     frame: Frame
     rng: WorldRng
     teams: tuple[Frame, Frame] | None = None
@@ -84,7 +84,7 @@ class SimulatedSenses(Senses):
         stepper: SensingStepper,
         total: int,
         ranges: NumberRanges | None,
-        observing: tuple[int, ...],
+        observing: tuple[int, ...] | None,
         frame: Frame,
         rng: WorldRng,
     ) -> SimulatedSenses:
@@ -94,11 +94,12 @@ class SimulatedSenses(Senses):
             stepper: the simulator.
             total: number of its worlds.
             ranges: ranges of numbers that each episode draws.
-            observing: teams that know different things; () if all robots know the same.
+            observing: teams with forecasts of their own; None if all robots know the same.
             frame: frame of n worlds; copied.
             rng: (n,) random streams.
         """
-        teams = (frame.copy(), frame.copy()) if len(observing) > 1 else None
+        is_divided = bool(observing) and frame.n_blue > 0 < frame.n_yellow
+        teams = (frame.copy(), frame.copy()) if is_divided else None
         return cls(stepper, total, ranges, observing, frame.copy(), rng, teams)
 
     def begin(self, frame: Frame, worlds: NDArray[np.intp]) -> None:
@@ -111,14 +112,14 @@ class SimulatedSenses(Senses):
         self.stepper.begin_senses(mask, keys, numbers)
         rows = np.empty((self.total, frame.rows.shape[1]), np.float32)
         for team, known in self._known():
-            self._read(rows, mask, team)
+            self.stepper.sense(rows, mask, *team)
             known.rows[:] = rows[worlds]
         self._join()
 
     def sense(self, frame: Frame, active: Mask | None = None) -> None:
         """Sense the state after a step; see `Senses.sense`."""
         for team, known in self._known():
-            self._read(known.rows, active, team)
+            self.stepper.sense(known.rows, active, *team)
         self._join()
 
     def take(self, worlds: NDArray[np.intp]) -> SimulatedSenses:
@@ -129,18 +130,14 @@ class SimulatedSenses(Senses):
         part = (self.stepper, self.total, self.ranges, self.observing)
         return SimulatedSenses(*part, frame, rng, teams)
 
-    def _known(self) -> tuple[tuple[int | None, Frame], ...]:
-        """Teams, and the frames for what they know; None for all robots."""
-        if self.teams is not None:
-            return tuple(enumerate(self.teams))
-        return ((self.observing[0] if self.observing else None, self.frame),)
-
-    def _read(self, rows: Floats, active: Mask | None, team: int | None) -> None:
-        """Read what a team knows."""
-        if team is None:
-            self.stepper.sense(rows, active)
-        else:
-            self.stepper.sense(rows, active, SIDES[team])
+    def _known(self) -> tuple[tuple[tuple[str | None, ...], Frame], ...]:
+        """Arguments `known` of `SensingStepper.sense`, () for its default, and frames for them."""
+        if self.observing is None:
+            return (((), self.frame),)
+        if self.teams is None:
+            return (((SIDES[self.observing[0]] if self.observing else None,), self.frame),)
+        names = (SIDES[team] if team in self.observing else None for team in (0, 1))
+        return tuple(((name,), known) for name, known in zip(names, self.teams, strict=True))
 
     def _join(self) -> None:
         """Put together what both teams know: each robot as its own team knows it."""

@@ -255,6 +255,18 @@ pub enum ForecastError {
         /// The time between them, s.
         got: f64,
     },
+    /// A row of a time whose commands are forgotten.
+    #[error(
+        "seen: the row of world {world} is of {got} s, expected {since} s or later: commands that acted before are forgotten"
+    )]
+    Forgotten {
+        /// Index of the world.
+        world: usize,
+        /// Time of the row, s.
+        got: f64,
+        /// Time from which commands are known, s.
+        since: f64,
+    },
     /// A row that cannot be placed.
     #[error(transparent)]
     Row(#[from] PlaceError),

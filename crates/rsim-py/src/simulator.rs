@@ -157,20 +157,23 @@ impl Simulator {
         Ok(())
     }
 
-    #[pyo3(signature = (out, active = None, known = Known::default()), text_signature = "($self, out, active=None, known='blue')")]
+    #[pyo3(signature = (out, active = None, known = Some(Known::default())), text_signature = "($self, out, active=None, known='blue')")]
     fn sense(
         &self,
         py: Python<'_>,
         out: &Bound<'_, PyAny>,
         active: Option<&Bound<'_, PyAny>>,
-        known: Known,
+        known: Option<Known>,
     ) -> PyResult<()> {
         let active: Option<Mask> =
             active.map(|mask| readable("active", mask, &[self.0.worlds()])).transpose()?;
         let active = active.as_ref().map(values);
         let mut out = self.rows_out(out)?;
         let out = out.as_slice_mut()?;
-        py.detach(|| self.0.sense_as(known.0, out, active.as_deref()));
+        py.detach(|| match known {
+            Some(Known(knowledge)) => self.0.sense_as(knowledge, out, active.as_deref()),
+            None => self.0.sense_without_forecast(out, active.as_deref()),
+        });
         Ok(())
     }
 

@@ -13,7 +13,7 @@ from rsoccer.controllers import Controller
 from rsoccer.game import BLUE, NOBODY, YELLOW, EventKind
 from rsoccer.matches import Matches, Outcome
 from rsoccer.play import Play
-from rsoccer.policies.base import MatchState, Policy, PolicyInput, require_actions
+from rsoccer.policies.base import MatchState, Memory, Policy, PolicyInput, require_actions
 from rsoccer.randomization import Ranges
 from rsoccer.rng import WorldRng
 from rsoccer.sources import SensingSource, SimulatorSource, closed_after
@@ -188,6 +188,20 @@ def _own_goals(play: Play) -> NDArray[np.int64]:
     return goals
 
 
+@dataclass(frozen=True)
+class _Team:
+    """Learners that a policy drives at once."""
+
+    agents: NDArray[np.intp]
+    """(k,) their indices among the agents"""
+    shape: tuple[int, int, int]
+    """shape (n, k, action) of their actions"""
+    rng: WorldRng
+    """(n,) random streams"""
+    memory: Memory
+    """(n, ...) arrays of the policy"""
+
+
 class LearnerPolicy:
     """A policy in the place of the learners: only learners receive rewards."""
 
@@ -204,9 +218,20 @@ class LearnerPolicy:
         """
         require_actions("policy", policy)
         self._policy, self._matches = policy, matches
-        self._shape = (matches.worlds, len(matches.agents), matches.action_size)
-        self._rng = WorldRng.seeded(seed, matches.worlds).split(matches.agents[0])
-        self._memory = policy.new_memory(self._shape, self._rng)
+        learners = matches.assignment.learners
+        agents = np.arange(len(learners))
+        teams = [agents]
+        if matches.play.teams_differ:  # the policy plays each team with what that team knows
+            are_yellow = learners >= matches.play.frame.n_blue
+            teams = [team for team in (agents[~are_yellow], agents[are_yellow]) if len(team)]
+        self._teams = [self._of_team(team, seed) for team in teams]
+
+    def _of_team(self, agents: NDArray[np.intp], seed: int) -> _Team:
+        """A policy's robots before the first step, by their indices among the agents."""
+        matches = self._matches
+        shape = (matches.worlds, len(agents), matches.action_size)
+        rng = WorldRng.seeded(seed, matches.worlds).split(matches.agents[agents[0]])
+        return _Team(agents, shape, rng, self._policy.new_memory(shape, rng))
 
     def act(self, observations: Floats) -> Floats:
         """Return the actions of the learners.
@@ -217,13 +242,24 @@ class LearnerPolicy:
         Returns:
             (n, agents, action) actions.
         """
-        view = match = None
+        actions = [self._act(team, observations) for team in self._teams]
+        return actions[0] if len(actions) == 1 else np.concatenate(actions, axis=1)
+
+    def _act(self, team: _Team, observations: Floats) -> Floats:
+        """Actions (n, k, action) of the k learners of a team."""
+        view = match = own = None
         play, assignment = self._matches.play, self._matches.assignment
+        is_whole = len(self._teams) == 1
         if self._policy.observes != "nothing":
-            view = play.sensed_view.select(assignment.learner_indices)
-            known = play.known_to_robots(assignment.learners)
-            match = MatchState(known.rows, play.game, assignment.learners, play.threads)
-        own = observations if self._policy.observes == "observation" else None
+            robots, indices = assignment.learners, assignment.learner_indices
+            if not is_whole:
+                robots = robots[team.agents]
+                indices = np.searchsorted(assignment.observers, robots)
+            view = play.sensed_view.select(indices)
+            known = play.known_to_robots(robots)
+            match = MatchState(known.rows, play.game, robots, play.threads)
+        if self._policy.observes == "observation":
+            own = observations if is_whole else observations[:, team.agents]
         optional = self._matches.task.optional_action_size
-        inputs = PolicyInput(self._shape, view, own, optional, match)
-        return inputs.completed(self._policy.act(inputs, self._rng, self._memory))
+        inputs = PolicyInput(team.shape, view, own, optional, match)
+        return inputs.completed(self._policy.act(inputs, team.rng, team.memory))

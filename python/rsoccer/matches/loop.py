@@ -28,7 +28,7 @@ from rsoccer.matches.learners import Learners
 from rsoccer.matches.match_state import MatchState
 from rsoccer.matches.outcome import Episodes, Outcome
 from rsoccer.matches.paused import PausedWorlds
-from rsoccer.matches.sensing import new_senses, simulated
+from rsoccer.matches.sensing import new_senses, simulated, teams_differ
 from rsoccer.matches.starts import Starts
 from rsoccer.new_play import new_play, new_viewpoint
 from rsoccer.play import Play
@@ -151,9 +151,6 @@ class Matches:
         self._discrete = self.task.action_table is not None
         self.worlds = checks.integer("worlds", worlds, 1)
         self.autoreset = autoreset
-        self.assignment = assign(self.task, controllers, worlds)
-        self.agents = tuple(self.task.robots[robot] for robot in self.assignment.learners)
-        self._learners = Learners(self.assignment)
         self.action_size = self.task.action_size
         self._stack = ObservationStack.of(self.task, history)
         self.history, self.observation_size = self._stack.history, self._stack.size
@@ -169,6 +166,10 @@ class Matches:
         is_own_model = self._sensing is not None and not isinstance(self._sensing, Sensing)
         self.sensing = sensing if is_own_model else simulated(self._sensing)
         self.randomization = dict(randomization or {})
+        by_team = teams_differ(self._sensing, self._randomization.sensing)
+        self.assignment = assign(self.task, controllers, worlds, by_team=by_team)
+        self.agents = tuple(self.task.robots[robot] for robot in self.assignment.learners)
+        self._learners = Learners(self.assignment)
         self._rules = self.task.rules
         root = WorldRng.seeded(checks.integer("seed", seed, 0), worlds)
         self._start = root.split("start")

@@ -53,19 +53,23 @@ def new_senses(
     if sensing is None:
         return None
     if isinstance(sensing, Sensing):
-        observing = _forecasting_teams(sensing, ranges, viewpoint)
+        differ = teams_differ(sensing, ranges)
+        observing = tuple(np.unique(viewpoint.teams).tolist()) if differ else None
         own = sensing_stepper(stepper)
         return SimulatedSenses.new(own, worlds, ranges, observing, frame, rng)
     return ModelSenses.new(sensing, frame, rng)
 
 
-def _forecasting_teams(
-    sensing: Sensing, ranges: NumberRanges | None, viewpoint: Viewpoint
-) -> tuple[int, ...]:
-    """Teams with observers whose forecasts differ; () without forecasts of their own."""
+def teams_differ(sensing: SensorModel | Sensing | None, ranges: NumberRanges | None) -> bool:
+    """Return whether each team that observes has a forecast of its own.
+
+    Args:
+        sensing: what robots know of the true state.
+        ranges: ranges of the numbers of a `Sensing`.
+    """
+    if not isinstance(sensing, Sensing):
+        return False
     drawn = () if ranges is None else sum((columns for columns, _ in ranges.drawn), ())
     may_forecast = sensing.forecast > 0.0 or SENSING_NUMBERS.index("forecast") in drawn
     is_shared = sensing.forecast_others >= ON and ranges is None
-    if not may_forecast or is_shared:
-        return ()
-    return tuple(np.unique(viewpoint.teams).tolist())
+    return may_forecast and not is_shared

@@ -16,6 +16,8 @@ struct Sent {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct CommandLog {
     sent: VecDeque<Sent>,
+    /// Time before which some commands are forgotten, s; `None` if all are known.
+    known_since: Option<f64>,
     /// Memory for commands to come.
     #[serde(skip)]
     spare: Vec<Vec<f32>>,
@@ -43,17 +45,24 @@ impl CommandLog {
         is_heard.then_some(&sent.commands)
     }
 
+    /// Time before which some commands are forgotten, s; `None` if all are known.
+    pub(crate) fn known_since(&self) -> Option<f64> {
+        self.known_since
+    }
+
     /// Forgets the commands that act no more at a time, s.
     pub(crate) fn forget_before(&mut self, time: f64) {
-        while self.sent.get(1).is_some_and(|next| next.acts <= time) {
+        while let Some(next) = self.sent.get(1).map(|next| next.acts).filter(|acts| *acts <= time) {
             let Some(old) = self.sent.pop_front() else { return };
             self.spare.push(old.commands);
+            self.known_since = Some(next);
         }
     }
 
-    /// Forgets all.
+    /// Forgets all, as if none had been sent.
     pub(crate) fn clear(&mut self) {
         self.sent.clear();
+        self.known_since = None;
     }
 }
 
@@ -72,11 +81,13 @@ mod tests {
         assert_eq!(at(&log, 0.13, None), Some(2.0));
         assert_eq!(at(&log, 9.0, None), Some(3.0));
         assert_eq!((at(&log, 0.24, Some(0.1)), at(&log, 0.26, Some(0.1))), (Some(3.0), None));
+        assert_eq!(log.known_since(), None);
         log.forget_before(0.13);
+        assert_eq!(log.known_since(), Some(0.125));
         assert_eq!((at(&log, 0.11, None), at(&log, 0.13, None)), (None, Some(2.0)));
         log.forget_before(9.0);
         assert_eq!(at(&log, 9.0, None), Some(3.0), "the last ones act on");
         log.clear();
-        assert_eq!((at(&log, 9.0, None), log.last()), (None, None));
+        assert_eq!((at(&log, 9.0, None), log.last(), log.known_since()), (None, None, None));
     }
 }

@@ -6,6 +6,9 @@ pub(crate) mod commands;
 
 use crate::models::config::SimConfig;
 
+/// Maximum time from what is known to a forecast, s; beyond it a forecast means nothing.
+pub(crate) const MAX_FORECAST: f64 = 2.0;
+
 /// The robots whose commands on their way are known; the others coast.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Knowledge {

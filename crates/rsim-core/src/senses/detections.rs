@@ -14,9 +14,7 @@ pub(super) struct Detections {
     pub(super) due: f64,
     pub(super) balls: Vec<DetectedBall>,
     pub(super) robots: Vec<DetectedRobot>,
-    /// Numbers of balls and of robots up to the end of each camera's. Left out of snapshots: only readers of
-    /// frames ask which camera saw what.
-    #[serde(skip)]
+    /// Numbers of balls and of robots up to the end of each camera's.
     pub(super) ends: Vec<[usize; 2]>,
 }
 

@@ -19,6 +19,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::ball::mouth::Kicker;
 use crate::body_parameters::BodyParameters;
+use crate::forecast::MAX_FORECAST;
 use crate::forecast::commands::CommandLog;
 use crate::models::config::SimConfig;
 use crate::models::sensing::Sensing;
@@ -44,8 +45,7 @@ pub(crate) struct Senses {
     /// Number of looks at a state that was placed.
     looks: u64,
     cameras: Cameras,
-    /// Frames that arrived in the last control step. Nothing depends on them.
-    #[serde(skip)]
+    /// Frames that arrived in the last control step. The match does not depend on them.
     arrived: Vec<Detections>,
     tracker: Tracker,
     reports: Reports,
@@ -103,8 +103,9 @@ impl Senses {
     pub(crate) fn send(&mut self, commands: &[f32], config: &SimConfig) {
         if self.sensing.forecast >= 0.5 {
             // A team knows when it sent its commands and how long they take in the mean, not more.
-            self.sent.forget_before(self.seen_at());
-            self.sent.add(self.now(config) + f64::from(self.sensing.command_delay), commands);
+            let acts = self.now(config) + f64::from(self.expected(config).command_delay);
+            self.sent.forget_before(self.seen_at().max(acts - MAX_FORECAST));
+            self.sent.add(acts, commands);
         }
         self.link.send(self.ticks, config.tick, (&self.sensing, self.key), commands);
     }
@@ -167,12 +168,23 @@ impl Senses {
 
     /// Writes the row of what robots know.
     pub(crate) fn write_row(&self, state: &State, out: &mut [f32]) {
-        row::write(&self.tracker, &self.reports, state, out);
+        row::write(&self.tracker, self.reports.cut, &self.reports.motions, state, out);
+    }
+
+    /// Writes the row of what robots know with velocities by cameras, which are of the same time as positions.
+    pub(crate) fn write_row_by_cameras(&self, state: &State, out: &mut [f32]) {
+        row::write(&self.tracker, self.reports.cut, &[], state, out);
     }
 
     /// Numbers of the senses.
     pub(crate) fn sensing(&self) -> &Sensing {
         &self.sensing
+    }
+
+    /// Numbers of the senses as teams take them to be: those of the configuration, also where the match has
+    /// others of its own.
+    pub(crate) fn expected<'a>(&'a self, config: &'a SimConfig) -> &'a Sensing {
+        config.sensing.as_ref().unwrap_or(&self.sensing)
     }
 
     /// Commands that were sent, for forecasts.

@@ -4,13 +4,20 @@ use crate::blocks::robot;
 use crate::columns::{ABSENT_COLUMN, BALL_COLUMNS, ROBOT_COLUMNS};
 use crate::geometry::motion::Motion;
 use crate::math::Vector;
-use crate::senses::reports::Reports;
+use crate::senses::reports::OwnMotion;
 use crate::senses::tracker::Tracker;
 use crate::state::State;
 
 /// Writes what is known. Nobody senses touches, collisions and lines crossed: these columns are as of a match
-/// that has just begun. Which robots are absent is known.
-pub(super) fn write(tracker: &Tracker, reports: &Reports, state: &State, out: &mut [f32]) {
+/// that has just begun. Which robots are absent is known. `cut` has a bit for each robot whose beam is cut;
+/// `motions` are the velocities that robots report, empty for those by cameras.
+pub(super) fn write(
+    tracker: &Tracker,
+    cut: u64,
+    motions: &[OwnMotion],
+    state: &State,
+    out: &mut [f32],
+) {
     let (ball, robots) = out.split_at_mut(BALL_COLUMNS.len());
     let known = &tracker.ball;
     let (position, velocity) = (known.track.position, known.track.velocity);
@@ -31,7 +38,7 @@ pub(super) fn write(tracker: &Tracker, reports: &Reports, state: &State, out: &m
         let robot = &tracker.robots[index];
         let (position, heading) = (robot.track.position, robot.heading.heading);
         let (mut velocity, mut turn) = (robot.track.velocity, robot.heading.angular_velocity);
-        if let Some(own) = reports.motions.get(index) {
+        if let Some(own) = motions.get(index) {
             let Vector { x: forward, y: left } = own.velocity;
             velocity = heading * forward + heading.perp() * left;
             turn = own.angular_velocity;
@@ -45,7 +52,7 @@ pub(super) fn write(tracker: &Tracker, reports: &Reports, state: &State, out: &m
             velocity.x,
             velocity.y,
             turn,
-            bit(reports.cut),
+            bit(cut),
             0.0,
             0.0,
             0.0,

@@ -1,9 +1,9 @@
 //! Forecasts: the physics of the models run from what is known of one time to another time.
 
 use crate::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
-use crate::forecast::Knowledge;
 use crate::forecast::coasting::Coasting;
 use crate::forecast::commands::CommandLog;
+use crate::forecast::{Knowledge, MAX_FORECAST};
 use crate::math::Vector;
 use crate::models::sensing::Sensing;
 use crate::state::State;
@@ -11,9 +11,6 @@ use crate::state::crossing::Crossing;
 use crate::tick::Tick;
 use crate::world::placement::Start;
 use crate::world::{MEMORY, Shared, WorkingMemory, World, row};
-
-/// Maximum time from what is known to a forecast, s; beyond it a forecast means nothing.
-pub(super) const MAX_FORECAST: f64 = 2.0;
 
 /// Part of a tick that counts as none.
 const ROUNDING: f64 = 0.01;
@@ -46,27 +43,30 @@ impl World {
 
     /// Writes the row of what a team knows: without a forecast the same for both, see
     /// [`World::write_sensed_row`]. With one it is the state in which the next commands will act, as far as
-    /// the models and the commands that are known tell.
+    /// the models, the configuration's delay and the commands that are known tell.
     pub fn write_row_known_to(&self, knowledge: Knowledge, out: &mut [f32]) {
         let Some(senses) = self.senses.as_ref().filter(|senses| senses.sensing().forecast >= 0.5)
         else {
             return self.write_row_as_seen(out);
         };
-        let (sensing, config) = (senses.sensing(), self.config());
+        let config = self.config();
+        let expected = senses.expected(config);
         let mut seen = vec![0.0; out.len()];
-        senses.write_row(&self.state, &mut seen);
-        let all = sensing.forecast_others >= 0.5;
+        senses.write_row_by_cameras(&self.state, &mut seen);
+        let all = senses.sensing().forecast_others >= 0.5;
         let knowledge = if all { Knowledge::All } else { knowledge };
-        let until = senses.now(config) + f64::from(sensing.command_delay);
+        let until = senses.now(config) + f64::from(expected.command_delay);
         let known = Known {
             row: &seen,
             seen: senses.seen_at().max(until - MAX_FORECAST),
             until,
             commands: senses.sent(),
             robots: knowledge.robots(config),
-            timeout: timeout(sensing),
+            timeout: timeout(expected),
         };
-        self.shared.forecast(&known, out);
+        if !self.shared.run(&known, out) {
+            senses.write_row(&self.state, out);
+        }
     }
 }
 

@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use crate::error::{ConfigError, ForecastError, SnapshotError};
-use crate::forecast::Knowledge;
 use crate::forecast::commands::CommandLog;
+use crate::forecast::{Knowledge, MAX_FORECAST};
 use crate::models::config::SimConfig;
 use crate::threads::Threads;
 use crate::world::batch::FORECAST_ALONE;
-use crate::world::forecast::{Known, MAX_FORECAST, timeout};
+use crate::world::forecast::{Known, timeout};
 use crate::world::snapshot::{self, Header};
 use crate::world::{Shared, World};
 
@@ -65,7 +65,8 @@ impl Forecaster {
     }
 
     /// Takes note of commands that were sent in the active worlds (all if `active` is `None`), with one time for
-    /// each world, s. The commands of robots that are not known are ignored.
+    /// each world, s. The commands of robots that are not known are ignored. Commands that no forecast of this or
+    /// a later time needs are forgotten.
     ///
     /// # Errors
     /// [`ForecastError::OutOfOrder`] for a time before that of a world's last commands; then nothing has
@@ -87,6 +88,7 @@ impl Forecaster {
         let size = self.config().command_size();
         for (world, (log, time)) in self.commands.iter_mut().zip(times).enumerate() {
             if is_active(world) {
+                log.forget_before(time + delay - MAX_FORECAST);
                 log.add(time + delay, &commands[world * size..][..size]);
             }
         }
@@ -94,10 +96,11 @@ impl Forecaster {
     }
 
     /// Writes forecasts of rows that were so at the times `seen`, s, for commands that will be sent at the times
-    /// `now`, s. Commands that no later row needs are forgotten.
+    /// `now`, s. Commands that no row of these or later times needs are forgotten.
     ///
     /// # Errors
-    /// [`ForecastError`] for the first world with a row that is too old or not finite; then nothing has changed.
+    /// [`ForecastError`] for the first world with a row that is too old, of a time whose commands are forgotten or
+    /// not finite; then nothing has changed.
     pub fn forecast(
         &mut self,
         rows: &[f32],
@@ -106,10 +109,13 @@ impl Forecaster {
         out: &mut [f32],
     ) -> Result<(), ForecastError> {
         let (delay, size) = (self.delay(), self.config().row_size());
-        for (world, (seen, now)) in seen.iter().zip(now).enumerate() {
+        for (world, ((seen, now), log)) in seen.iter().zip(now).zip(&self.commands).enumerate() {
             let got = now + delay - seen;
             if got > MAX_FORECAST {
                 return Err(ForecastError::TooOld { world, max: MAX_FORECAST, got });
+            }
+            if let Some(since) = log.known_since().filter(|since| seen < since) {
+                return Err(ForecastError::Forgotten { world, got: *seen, since });
             }
         }
         for (world, row) in rows.chunks_exact(size).enumerate() {

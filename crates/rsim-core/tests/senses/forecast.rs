@@ -90,10 +90,28 @@ fn a_forecast_is_the_state_in_which_the_next_commands_act() {
 #[test]
 fn without_any_delay_a_forecast_is_what_is_sensed() {
     let scene = scenes::chase();
-    let [_, forecasts] = played(&scene, late(0.0, 0.0), Knowledge::Blue, 60);
-    let sensing = Sensing { forecast: 0.0, ..late(0.0, 0.0) };
-    let [_, sensed] = played(&scene, sensing, Knowledge::Blue, 60);
-    assert_eq!(forecasts, sensed);
+    for odometry in [0.0, 1.0] {
+        let sensing = Sensing { odometry, odometry_noise: 0.1, ..late(0.0, 0.0) };
+        let [_, forecasts] = played(&scene, sensing.clone(), Knowledge::Blue, 60);
+        let sensing = Sensing { forecast: 0.0, ..sensing };
+        let [_, sensed] = played(&scene, sensing, Knowledge::Blue, 60);
+        assert_eq!(forecasts, sensed);
+    }
+}
+
+#[test]
+fn a_forecast_begins_with_what_cameras_saw_and_not_with_newer_velocities() {
+    for scene in scenes_without_contacts() {
+        let by_cameras = late(0.05, 0.05);
+        let own = Sensing { odometry: 1.0, ..by_cameras.clone() };
+        let [_, expected] = played(&scene, by_cameras.clone(), Knowledge::Blue, 24);
+        let [_, forecasts] = played(&scene, own.clone(), Knowledge::Blue, 24);
+        assert_eq!(forecasts, expected, "{}", scene.name);
+        let sensed = [by_cameras, own].map(|sensing| {
+            played(&scene, Sensing { forecast: 0.0, ..sensing }, Knowledge::Blue, 24)
+        });
+        assert_ne!(sensed[0][1], sensed[1][1], "{}: velocities change", scene.name);
+    }
 }
 
 #[test]
@@ -223,6 +241,118 @@ fn a_forecaster_of_ones_own_forecasts_as_senses_do() {
             }
         }
         assert!(difference(&rows, &out) > 0.01);
+    }
+}
+
+#[test]
+fn a_forecast_takes_the_delay_of_the_configuration_and_not_that_of_the_episode() {
+    let [vss, ssl] = scenes_without_contacts();
+    for mut scene in [vss, ssl] {
+        let sensing = Sensing { command_timeout: 0.2, ..late(0.06, 0.0) };
+        let drawn = Sensing { command_delay: 0.02, command_timeout: 0.01, ..sensing.clone() };
+        scene.config.sensing = Some(sensing);
+        let (mut batch, mut rows) = scene.batch(1, 1);
+        batch.begin_senses(&[true], &keys(1), Some(&drawn.values())).expect("valid");
+        let threads = Threads::new(1).expect("one");
+        let mut forecaster =
+            Forecaster::new(&scene.config, 1, Knowledge::All, threads).expect("valid");
+        let mut out = rows.clone();
+        let mut ahead = 0.0_f32;
+        for step in 0..20_u32 {
+            let before = f64::from(step) * 0.025;
+            let commands = scene.commands(&rows, step.into(), 0);
+            forecaster.send(&commands, &[before], None).expect("in order");
+            batch.step(&commands, &mut rows, None).expect("finite");
+            let mut known = rows.clone();
+            batch.sense(&mut known, None);
+            let now = [before + 0.025];
+            forecaster.forecast(&rows, &now, &now, &mut out).expect("valid");
+            assert!(difference(&known, &out) < 1e-6, "{}: {step}", scene.name);
+            ahead = ahead.max(difference(&known, &rows));
+        }
+        assert!(ahead > 0.01, "{}: {ahead}", scene.name);
+    }
+}
+
+#[test]
+fn rows_of_times_whose_commands_are_forgotten_are_refused() {
+    let mut scene = scenes::vss_free();
+    scene.config.sensing = Some(late(0.1, 0.0));
+    let new = || {
+        let threads = Threads::new(1).expect("one");
+        Forecaster::new(&scene.config, 1, Knowledge::All, threads).expect("valid")
+    };
+    let (mut forecaster, row) = (new(), scene.start.clone());
+    for (time, speed) in [(1.0, 5.0), (1.1, 20.0), (1.2, -5.0)] {
+        let commands = vec![speed; scene.config.command_size()];
+        forecaster.send(&commands, &[time], None).expect("in order");
+    }
+    let mut out = [(); 3].map(|()| row.clone());
+    let [early, then, other] = &mut out;
+    forecaster.forecast(&row, &[1.15], &[1.2], early).expect("all commands are known");
+    forecaster.forecast(&row, &[1.25], &[1.2], then).expect("valid");
+    let saved = forecaster.snapshot();
+    let mut restored = new();
+    restored.restore(&saved).expect("its own");
+    for each in [&mut forecaster, &mut restored] {
+        let error = each.forecast(&row, &[1.15], &[1.2], other).expect_err("forgotten");
+        assert_eq!(
+            error,
+            ForecastError::Forgotten { world: 0, got: 1.15, since: 1.1 + f64::from(0.1_f32) }
+        );
+        assert!(error.to_string().contains("seen: the row of world 0 is of 1.15 s"), "{error}");
+        assert_eq!((each.snapshot(), &*other), (saved.clone(), &row));
+        each.forecast(&row, &[1.25], &[1.2], other).expect("as before");
+        assert_eq!(other, then);
+        other.copy_from_slice(&row);
+    }
+    assert!(difference(early, then) > 0.0);
+    forecaster.reset(&[true]);
+    forecaster.forecast(&row, &[0.5], &[0.6], other).expect("nothing is forgotten");
+}
+
+#[test]
+fn commands_that_no_forecast_needs_take_no_memory() {
+    let scene = scenes::vss_free();
+    let threads = Threads::new(1).expect("one");
+    let mut forecaster = Forecaster::new(&scene.config, 1, Knowledge::All, threads).expect("valid");
+    let commands = vec![5.0; scene.config.command_size()];
+    let mut sizes = Vec::new();
+    for step in 0..1000_u32 {
+        forecaster.send(&commands, &[f64::from(step) * 0.025], None).expect("in order");
+        sizes.push(forecaster.snapshot().len());
+    }
+    assert!(sizes[10] < sizes[60], "those of 2 s are kept");
+    assert!(sizes[100..].iter().all(|size| *size < sizes[100] + 300));
+    let (row, mut out) = (scene.start.clone(), scene.start.clone());
+    let now = 999.0 * 0.025;
+    forecaster.forecast(&row, &[now - 1.99], &[now], &mut out).expect("up to 2 s");
+    let mut matches = scene.clone();
+    // Without frames that arrive, a match forecasts from its start, up to the limit.
+    matches.config.sensing = Some(Sensing { frame_loss: 1.0, ..late(0.1, 0.0) });
+    let (mut batch, mut rows) = matches.batch(1, 1);
+    let mut sizes = Vec::new();
+    for _ in 0..300 {
+        batch.step(&commands, &mut rows, None).expect("finite");
+        sizes.push(batch.snapshot().len());
+    }
+    assert!(sizes[299] < sizes[100] + 300, "{sizes:?}");
+}
+
+#[test]
+fn a_team_that_does_not_forecast_knows_what_is_sensed() {
+    for scene in scenes_without_contacts() {
+        let sensing = Sensing { odometry: 1.0, odometry_noise: 0.1, ..late(0.1, 0.05) };
+        let [_, sensed] =
+            played(&scene, Sensing { forecast: 0.0, ..sensing.clone() }, Knowledge::Blue, 12);
+        let (mut batch, mut rows) = begin(&scene, sensing, 1);
+        for (step, sensed) in (0..12).zip(sensed) {
+            let forecast = step_and_sense(&mut batch, &scene, &mut rows, step, Knowledge::Blue);
+            let mut known = rows.clone();
+            batch.sense_without_forecast(&mut known, None);
+            assert_eq!(known, sensed, "{}", scene.name);
+            assert_ne!(known, forecast, "{}", scene.name);
+        }
     }
 }
 

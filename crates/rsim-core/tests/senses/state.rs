@@ -114,12 +114,21 @@ fn snapshots_hold_all_that_is_on_its_way() {
         let (saved, start) = (batch.snapshot(), rows.clone());
         let futures: Vec<Vec<f32>> =
             (53..100).map(|nth| step(&mut batch, &scene, &mut rows, nth)).collect();
+        let (mut again, _) = begin(&scene, all(), 3);
+        again.restore(&saved).expect("its own");
         let (mut other, _) = begin(&scene, all(), 3);
         other.restore(&saved).expect("its own");
         let mut rows = start;
+        let mut detected = 0;
         for (nth, future) in (53..100).zip(futures) {
+            // A snapshot holds the frames that have arrived, too.
+            again.restore(&other.snapshot()).expect("its own");
+            let frames = other.camera_frames(1);
+            detected += frames.iter().map(|frame| frame.robots.len()).sum::<usize>();
+            assert_eq!(again.camera_frames(1), frames);
             assert_eq!(step(&mut other, &scene, &mut rows, nth), future);
         }
+        assert!(detected > 20, "{detected}");
     }
 }
 
