@@ -51,7 +51,7 @@ impl Draws {
         probability > 0.0 && self.uniform() < probability
     }
 
-    /// Which of `count` things of this probability happen, one bit each. Nothing is drawn for 0.
+    /// The things of `count` that happen with this probability each, one bit a thing. Nothing is drawn for 0.
     ///
     /// One number tells which one is the next: powers of the probability that a thing does not happen part
     /// the interval from 0 to 1. What happens seldom costs one number for all things.
