@@ -23,7 +23,7 @@ SLOW = RobotModel(
 )
 SENSES = Sensing("rc2021", delay=0.053, command_delay=0.02, wheel_error=0.01)
 GAINS = (0.9, 0.94, 1.04)
-SEED = 3
+SEED = 4  # of a robot whose wheels err by more than a few parts in a thousand
 SLOW_VSS = RobotModel("vss_440rpm", longitudinal_grip=0.7 * VSS.longitudinal_grip)
 VSS_GAINS = (0.9, 0.93)
 
@@ -135,7 +135,8 @@ def test_the_same_log_and_seed_give_the_same_numbers(vss_log: Log, vss: Identifi
     assert identify(vss_log).as_dict() == vss.as_dict()
     other = identify(vss_log, seed=1)
     assert other.robot == vss.robot
-    assert other.estimate("latency").low != vss.estimate("latency").low
+    # An interval that the scatter alone makes wide enough does not depend on the seed.
+    assert other.as_dict()["estimates"] != vss.as_dict()["estimates"]
 
 
 def test_stamps_of_captures_tell_the_delays_apart(vss_log: Log) -> None:
