@@ -164,6 +164,18 @@ def test_two_clocks(vss_log: Log, vss: Identified) -> None:
     assert found.robot.longitudinal_grip == pytest.approx(vss.robot.longitudinal_grip, rel=0.02)
 
 
+def test_kicks_by_two_clocks(ssl_log: Log) -> None:
+    # By the clock of the poses, each kick seems to be that of the command before it.
+    late = -2.4
+    moved = [
+        type(track)(track.times + late, track.positions, track.headings, track.captured)
+        for track in (ssl_log.poses[ROBOT], ssl_log.ball)
+    ]
+    found = identify(Log(ssl_log.drive, ssl_log.commands, {ROBOT: moved[0]}, moved[1]), clocks=2)
+    assert found.estimate("kick_gain").value == pytest.approx(1.0, rel=0.02)
+    assert not found.estimate("kick_latency").is_identified
+
+
 def test_what_commands_do_not_show_is_not_identified() -> None:
     forward = program(SSL, speed=1.0, angular_velocity=1.0)
     only = forward.wheels * np.array([1.0, 0.0, 0.0])

@@ -99,7 +99,16 @@ def with_one_clock(log: Log, model: RobotModel, clocks: int) -> Log:
                 "if each has a clock of its own, say so by clocks=2: the latency then stays unknown"
             )
         return log
-    shift = late - 2.0 * _LATE
+    return shifted(log, late - 2.0 * _LATE)
+
+
+def shifted(log: Log, shift: float) -> Log:
+    """Return a log whose commands were sent later.
+
+    Args:
+        log: the log.
+        shift: time by which they were, s.
+    """
     moved = {
         robot: replace(commands, times=commands.times + shift)
         for robot, commands in log.commands.items()
