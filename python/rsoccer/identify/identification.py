@@ -124,7 +124,8 @@ def identify(
     Raises:
         TypeError: an argument of another type.
         ValueError: no such preset; a robot that is not commanded as the log's; units that are mixed
-            up, poses that do not follow commands, two clocks that were not announced, or a log with
+            up, poses that do not follow commands, two clocks that were not announced, times of
+            captures after those of arrivals or longer before them than the latency, or a log with
             neither a second of driving nor a run of the ball.
     """
     integer_in_range("clocks", clocks, 1, 2)
