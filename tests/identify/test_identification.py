@@ -114,6 +114,18 @@ def test_wheels_of_a_vsss_robot(vss: Identified) -> None:
     assert vss.ball.sliding_deceleration == BallModel("vss_rsim").sliding_deceleration
 
 
+def test_one_wheel_that_reaches_its_top_speed_by_a_little() -> None:
+    mean, difference = 0.87, 0.0376
+    gains = (mean * (1.0 - difference / 2.0), mean * (1.0 + difference / 2.0))
+    excitation = program(VSS)
+    fastest = np.abs(excitation.wheels * gains).max(axis=0) / VSS.max_wheel_speed
+    assert fastest[0] < 1.0 < fastest[1] < 1.05
+    exact = Sensing("rc2021", delay=0.053, command_delay=0.02)
+    found = identify(record(VSS, None, exact, excitation=excitation, gains=gains, seed=18), VSS)
+    assert found.estimate("wheel_difference").value == pytest.approx(difference, abs=0.002)
+    assert found.misfit == pytest.approx(1.0, abs=0.1)
+
+
 def test_the_file_names_each_model(ssl: Identified, tmp_path: Path) -> None:
     path = str(ssl.save(tmp_path / "model.json"))
     assert RobotModel(path).max_acceleration == pytest.approx(ssl.robot.max_acceleration, rel=1e-5)
