@@ -67,6 +67,29 @@ def test_a_drag_that_does_not_stand_out_is_not_reported() -> None:
     assert rolling.value == pytest.approx(0.26, rel=0.02)
 
 
+@pytest.mark.parametrize("rolling", [0.08, 0.37, 0.387, 0.6])
+def test_rolling_far_from_the_base_is_found(rolling: float) -> None:
+    rng = np.random.default_rng(12)
+    times, positions = [], []
+    for number, speed in enumerate((0.65, 1.08)):
+        moment = np.arange(0.0, min(0.85 * speed / rolling, 2.0), 0.015)
+        away = rolled(rolling, 0.0, speed, moment)
+        positions.append(np.column_stack([away, 0.5 + 0.0 * away]))
+        times.append(moment + 5.0 * number)
+    points = np.concatenate(positions)
+    points = points + rng.normal(0.0, NOISE, points.shape)
+    moments = np.concatenate(times)
+    empty = np.zeros(len(moments))
+    log = Log(None, {}, {}, Track(moments, points, empty, np.full(len(moments), np.nan)))
+    base = BallModel("vss_rsim")
+    assert abs(base.rolling_deceleration - rolling) > 0.03
+    found = runs(log, NOISE)
+    assert len(found) == 2
+    fit = BallFit(found, NOISE, base)
+    fit.run()
+    assert fit.estimates(rng)[2].value == pytest.approx(rolling, rel=0.03)
+
+
 def test_intervals_of_rolling_hold_the_truth() -> None:
     held, runs_ = 0, 30
     for seed in range(runs_):

@@ -23,7 +23,7 @@ SLOW = RobotModel(
 )
 SENSES = Sensing("rc2021", delay=0.053, command_delay=0.02, wheel_error=0.01)
 GAINS = (0.9, 0.94, 1.04)
-SEED = 3
+SEED = 4  # of a robot whose wheels err by more than a few parts in a thousand
 SLOW_VSS = RobotModel("vss_440rpm", longitudinal_grip=0.7 * VSS.longitudinal_grip)
 VSS_GAINS = (0.9, 0.93)
 
@@ -114,6 +114,18 @@ def test_wheels_of_a_vsss_robot(vss: Identified) -> None:
     assert vss.ball.sliding_deceleration == BallModel("vss_rsim").sliding_deceleration
 
 
+def test_one_wheel_that_reaches_its_top_speed_by_a_little() -> None:
+    mean, difference = 0.87, 0.0376
+    gains = (mean * (1.0 - difference / 2.0), mean * (1.0 + difference / 2.0))
+    excitation = program(VSS)
+    fastest = np.abs(excitation.wheels * gains).max(axis=0) / VSS.max_wheel_speed
+    assert fastest[0] < 1.0 < fastest[1] < 1.05
+    exact = Sensing("rc2021", delay=0.053, command_delay=0.02)
+    found = identify(record(VSS, None, exact, excitation=excitation, gains=gains, seed=18), VSS)
+    assert found.estimate("wheel_difference").value == pytest.approx(difference, abs=0.002)
+    assert found.misfit == pytest.approx(1.0, abs=0.1)
+
+
 def test_the_file_names_each_model(ssl: Identified, tmp_path: Path) -> None:
     path = str(ssl.save(tmp_path / "model.json"))
     assert RobotModel(path).max_acceleration == pytest.approx(ssl.robot.max_acceleration, rel=1e-5)
@@ -135,7 +147,8 @@ def test_the_same_log_and_seed_give_the_same_numbers(vss_log: Log, vss: Identifi
     assert identify(vss_log).as_dict() == vss.as_dict()
     other = identify(vss_log, seed=1)
     assert other.robot == vss.robot
-    assert other.estimate("latency").low != vss.estimate("latency").low
+    # An interval that the scatter alone makes wide enough does not depend on the seed.
+    assert other.as_dict()["estimates"] != vss.as_dict()["estimates"]
 
 
 def test_stamps_of_captures_tell_the_delays_apart(vss_log: Log) -> None:
@@ -161,6 +174,18 @@ def test_two_clocks(vss_log: Log, vss: Identified) -> None:
     assert not found.estimate("latency").is_identified
     assert found.sensing.delay == 0.0
     assert found.robot.longitudinal_grip == pytest.approx(vss.robot.longitudinal_grip, rel=0.02)
+
+
+def test_kicks_by_two_clocks(ssl_log: Log) -> None:
+    # By the clock of the poses, each kick seems to be that of the command before it.
+    late = -2.4
+    moved = [
+        type(track)(track.times + late, track.positions, track.headings, track.captured)
+        for track in (ssl_log.poses[ROBOT], ssl_log.ball)
+    ]
+    found = identify(Log(ssl_log.drive, ssl_log.commands, {ROBOT: moved[0]}, moved[1]), clocks=2)
+    assert found.estimate("kick_gain").value == pytest.approx(1.0, rel=0.02)
+    assert not found.estimate("kick_latency").is_identified
 
 
 def test_what_commands_do_not_show_is_not_identified() -> None:

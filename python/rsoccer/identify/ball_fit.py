@@ -72,7 +72,7 @@ class BallFit:
     def run(self) -> None:
         """Fit all numbers, and find those that the runs identify."""
         base = [float(getattr(self.base, each.name)) for each in _SHARED]
-        start = self._encoded([max(base[0], 0.5), base[1], max(base[2], 0.05), base[3]])
+        start = self._encoded([max(base[0], 0.5), base[1], self._slowed(base[2]), base[3]])
         self.start = start
         if not self.runs:
             return
@@ -130,6 +130,18 @@ class BallFit:
         sliding = self._decoded(self.solution.parameters)[0]
         kicked = float(_kick_speed(sliding, distance, speed, run.rest))
         return kicked, run.began - (kicked - float(speed)) / float(sliding)
+
+    def _slowed(self, base: float) -> float:
+        """Typical deceleration in the later halves of runs, m/s²; the base's without runs.
+
+        A start that leaves misfits of many standard deviations would let the fit end far away,
+        since the numbers of each run then count most of its poses as outliers.
+        """
+        found = []
+        for run in self.runs:
+            late = run.times >= 0.5 * run.times[-1]
+            found.append(-2.0 * float(np.polyfit(run.times[late], run.distances[late], 2)[0]))
+        return max(float(np.median(found)) if found else base, 0.05)
 
     def _solved(self, start: Doubles, free: Mask) -> Solution:
         steps = np.array([each.step for each in _SHARED])

@@ -35,6 +35,8 @@ class Run:
     """Time of the first pose, s."""
     rest: float
     """Distance of the place where the ball lay before it was kicked, m; NaN if it did not lie."""
+    place: tuple[float, float]
+    """That place, m; NaN if it did not lie."""
 
 
 def runs(log: Log, noise: float) -> list[Run]:
@@ -129,8 +131,9 @@ def _run(times: Doubles, positions: Doubles, part: slice, noise: float) -> Run |
         return None
     moment = times[part]
     rest = _resting_place(times, positions, part.start)
-    along = float((rest - points[0]) @ direction) if rest is not None else np.nan
-    return Run(moment - moment[0], distances, float(moment[0]), along)
+    x, y = (np.nan, np.nan) if rest is None else rest.tolist()
+    along = float((np.array([x, y]) - points[0]) @ direction)
+    return Run(moment - moment[0], distances, float(moment[0]), along, (x, y))
 
 
 def _resting_place(times: Doubles, positions: Doubles, first: int) -> Doubles | None:

@@ -24,6 +24,7 @@ _HEAVY: Final = 1.0  # kg: robots that the ball does not push
 _ALONG: Final = 0.8  # least part of the commanded speed along an axis, in windows of that axis
 _REACH: Final = 0.08  # s beyond a latency, within which it is fitted
 _BEYOND: Final = 1.05  # of a top speed, which commands exceed where it shows
+_WORSE: Final = 1.05  # of the misfit, by which a top speed that hardly shows is missed
 _BEYOND_TIME: Final = 0.2  # s
 
 
@@ -57,7 +58,11 @@ class DriveFit:
         self._cut(float(self.solution.parameters[0]))
         self.solution = self._solved(self.windows, self.solution.parameters)
         tops = np.array([name in self.drive.tops() for name in self.drive.names])
+        limited = self.solution
         self._fix(tops & ~self._exceeded())
+        if self.solution.scale > _WORSE * limited.scale:
+            # One wheel of two that are unequal may reach its top speed by a little.
+            self.solution, self.free = limited, self.free | tops
         gains = np.array([name.startswith(("gain", "wheel_r")) for name in self.drive.names])
         if not self._identified(self.solution)[gains].all():
             # A gain explains a robot that is slow at one level of speed alone, too.

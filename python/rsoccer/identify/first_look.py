@@ -14,7 +14,7 @@ from rsoccer.identify.windows import MAX_LATENCY
 
 _GRID: Final = 0.01  # s
 _HALF: Final = 3  # poses to each side of one whose velocity is measured
-_LATE: Final = 0.08  # s: latency that is left between two clocks after they were compared
+_LATE: Final = 0.3  # s left between two clocks, as accelerations add up to this to their lag
 _EARLY: Final = 0.05  # s by which poses seem earlier than commands, from rough velocities
 _STEADY: Final = 0.15  # s that a command has held before a robot drives as it says
 _CARRIED: Final = 0.98  # share of the time that robots drive
@@ -99,7 +99,16 @@ def with_one_clock(log: Log, model: RobotModel, clocks: int) -> Log:
                 "if each has a clock of its own, say so by clocks=2: the latency then stays unknown"
             )
         return log
-    shift = late - 2.0 * _LATE
+    return shifted(log, late - _LATE)
+
+
+def shifted(log: Log, shift: float) -> Log:
+    """Return a log whose commands were sent later.
+
+    Args:
+        log: the log.
+        shift: time by which they were, s.
+    """
     moved = {
         robot: replace(commands, times=commands.times + shift)
         for robot, commands in log.commands.items()

@@ -16,7 +16,7 @@ from rsoccer.identify.alignment import track_noise
 from rsoccer.identify.ball_fit import BallFit
 from rsoccer.identify.ball_runs import runs
 from rsoccer.identify.drive_fit import DriveFit
-from rsoccer.identify.first_look import check_gains, with_one_clock
+from rsoccer.identify.first_look import check_gains, shifted, with_one_clock
 from rsoccer.identify.kick_fit import kick_estimates
 from rsoccer.identify.log import Log
 from rsoccer.identify.log_checks import check_units
@@ -124,7 +124,8 @@ def identify(
     Raises:
         TypeError: an argument of another type.
         ValueError: no such preset; a robot that is not commanded as the log's; units that are mixed
-            up, poses that do not follow commands, two clocks that were not announced, or a log with
+            up, poses that do not follow commands, two clocks that were not announced, times of
+            captures after those of arrivals or longer before them than the latency, or a log with
             neither a second of driving nor a run of the ball.
     """
     integer_in_range("clocks", clocks, 1, 2)
@@ -136,7 +137,7 @@ def identify(
     if log.drive not in (None, base.drive):
         raise ValueError(f"robot: expected one of drive {log.drive}, as the log's, got {base.name}")
     check_units(log)
-    fit = None
+    fit, aligned = None, log
     if log.commands:
         aligned = with_one_clock(log, base, clocks)
         check_gains(aligned, base)
@@ -144,6 +145,7 @@ def identify(
         fit.run()
         drive = [*fit.estimates(rng), *fit.by_axis(rng)]
         if clocks == 2:
+            aligned = shifted(aligned, drive[0].value if drive[0].is_identified else 0.0)
             drive[0] = Estimate.missing(drive[0].name, "s", "one clock of commands and poses")
     else:
         drive = [Estimate.missing("latency", "s", "commands")]
@@ -152,7 +154,7 @@ def identify(
     rolling.run()
     if fit is None and not rolling.free.any():
         raise ValueError("log: neither commands nor a ball that rolls; nothing can be identified")
-    kicks = kick_estimates(log, rolling)
+    kicks = kick_estimates(aligned, rolling)
     if clocks == 2:
         kicks[-1] = Estimate.missing(kicks[-1].name, "s", "one clock of commands and poses")
     cameras = [*delay_estimates(log, drive[0]), *camera_estimates(log)]

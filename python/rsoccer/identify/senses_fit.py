@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from itertools import pairwise
 from typing import Final
 
 import numpy as np
 
+from rsoccer.arrays import Doubles
 from rsoccer.identify.alignment import heading_noise, track_noise
 from rsoccer.identify.least_squares import student
 from rsoccer.identify.log import Log, Track
 from rsoccer.identify.results import Estimate
 
 _PARTS: Final = 12  # parts of a track whose numbers differ by chance
+_SLACK: Final = 0.005  # s by which stamps and latency may contradict each other
+_LOST: Final = 1.5  # of the median time between frames, beyond which one is missing
 _LEAST: Final = 40  # poses of a track that is cut into parts
 
 
@@ -42,6 +46,10 @@ def delay_estimates(log: Log, latency: Estimate) -> list[Estimate]:
 
     Returns:
         `delay` and `command_delay` as in `Sensing`.
+
+    Raises:
+        ValueError: poses that were captured after they arrived, or so long before that the latency
+            has no room for it.
     """
     parts = [track.times - track.captured for track in log.poses.values()]
     late = np.concatenate(parts) if parts else np.zeros(0)
@@ -54,15 +62,37 @@ def delay_estimates(log: Log, latency: Estimate) -> list[Estimate]:
         low, value, high = (max(x, 0.0) for x in (latency.low, latency.value, latency.high))
         return [Estimate("delay", "s", low, value, high), missing]
     medians = [float(np.median(part)) for part in np.array_split(late, _PARTS) if len(part)]
-    vision = _with_half("delay", "s", float(np.median(late)), medians)
-    low, rest, high = (
-        max(x - vision.value, 0.0) for x in (latency.low, latency.value, latency.high)
-    )
-    return [vision, Estimate("command_delay", "s", low, rest, high)]
+    _check_captured(late, latency)
+    vision = _with_half("delay", "s", max(float(np.median(late)), 0.0), medians)
+    rest = latency.value - vision.value
+    below = math.hypot(latency.value - latency.low, vision.high - vision.value)
+    above = math.hypot(latency.high - latency.value, vision.high - vision.value)
+    low, value, high = (max(x, 0.0) for x in (rest - below, rest, rest + above))
+    return [vision, Estimate("command_delay", "s", low, value, high)]
+
+
+def _check_captured(late: Doubles, latency: Estimate) -> None:
+    """Refuse stamps of cameras that the latency contradicts."""
+    median, least, most = float(np.median(late)), float(late.min()), latency.high
+    if least < -_SLACK:
+        raise ValueError(
+            f"captured: expected times up to `time` of the row, got one {-least:.4g} s after it; "
+            "both columns need one clock"
+        )
+    if median > most + _SLACK:
+        raise ValueError(
+            f"captured: expected times at most the latency of {most:.4g} s before `time` of the "
+            f"row, got {median:.4g} s as their median; both columns need one clock"
+        )
 
 
 def _frame_rate(track: Track) -> float:
-    return 1.0 / float(np.median(np.diff(track.times)))
+    """Frames a second of a camera, by its own stamps if the log has them: arrivals vary."""
+    stamped = bool(np.isfinite(track.captured).all())
+    gaps = np.diff(np.sort(track.captured) if stamped else track.times)
+    gaps = gaps[gaps > 0.0]
+    # Longer ones are of frames that did not arrive.
+    return 1.0 / float(gaps[gaps < _LOST * np.median(gaps)].mean())
 
 
 def _of_parts(name: str, unit: str, track: Track, number: Callable[[Track], float]) -> Estimate:
