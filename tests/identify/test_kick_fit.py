@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rsoccer import BallModel
-from rsoccer.arrays import Doubles
+from rsoccer.arrays import Array
 from rsoccer.identify.ball_fit import BallFit
 from rsoccer.identify.ball_runs import runs
 from rsoccer.identify.kick_fit import kick_estimates
@@ -27,7 +27,7 @@ def robot(place: tuple[float, float]) -> Track:
     return Track(times, np.tile(place, (len(times), 1)), 0.0 * times, np.full(len(times), np.nan))
 
 
-def sent(times: Doubles, speeds: Doubles) -> Commands:
+def sent(times: Array, speeds: Array) -> Commands:
     """Kicks that are commanded for a tenth of a second each."""
     moments = np.sort(np.concatenate([[0.0], times, times + 0.1]))
     values = np.zeros(len(moments))

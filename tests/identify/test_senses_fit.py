@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rsoccer.arrays import Doubles
+from rsoccer.arrays import Array
 from rsoccer.identify.log import Log, Track
 from rsoccer.identify.results import Estimate
 from rsoccer.identify.senses_fit import camera_estimates, delay_estimates
@@ -13,7 +13,7 @@ FRAME = 0.016
 COUNT = 3000
 
 
-def log_of(times: Doubles, captured: Doubles) -> Log:
+def log_of(times: Array, captured: Array) -> Log:
     """Log of one robot that stands, with noise."""
     rng = np.random.default_rng(0)
     poses = rng.normal(0.0, 0.001, (len(times), 3))
@@ -22,7 +22,7 @@ def log_of(times: Doubles, captured: Doubles) -> Log:
     return Log(None, {}, {"a": track}, Track(nothing, np.zeros((0, 2)), nothing, nothing))
 
 
-def stamps(delay: float, seed: int = 0) -> tuple[Doubles, Doubles]:
+def stamps(delay: float, seed: int = 0) -> tuple[Array, Array]:
     """Arrivals, late by chance, and captures of frames of which a few are lost."""
     rng = np.random.default_rng(seed)
     captured = FRAME * np.flatnonzero(rng.random(COUNT) > 0.03)

