@@ -112,7 +112,7 @@ class Play:
 
     @property
     def teams_differ(self) -> bool:
-        """Whether teams know different states, by forecasts of their own."""
+        """True if teams know different states, by forecasts of their own."""
         return self.senses is not None and self.senses.teams is not None
 
     @property

@@ -23,7 +23,9 @@ class Parameter:
     """A number to be identified."""
 
     name: str
+    """Name, such as "latency"."""
     unit: str
+    """Unit, such as "m/s"."""
     step: float
     """Change over which slopes are measured; of the logarithm for limits."""
     tolerance: float

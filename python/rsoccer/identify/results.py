@@ -11,10 +11,15 @@ class Estimate:
     """A number with its interval of 95%."""
 
     name: str
+    """Name, such as "latency"."""
     unit: str
+    """Unit, such as "s"."""
     low: float
+    """Lower end of the interval."""
     value: float
+    """Estimated number."""
     high: float
+    """Upper end of the interval."""
     hint: str = ""
     """Reason why it is not identified; the numbers are NaN then."""
 

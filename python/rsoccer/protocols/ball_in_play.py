@@ -1,4 +1,4 @@
-"""Whether the ball is in play, from the commands of a referee and the way of the ball."""
+"""The ball in play or not, from the commands of a referee and the way of the ball."""
 
 from __future__ import annotations
 

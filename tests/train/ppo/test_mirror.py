@@ -82,9 +82,9 @@ def test_an_update_starts_at_a_ratio_of_1_and_sees_twice_the_samples(
     batch = trainer.collect_rollout(lambda: None)
     sizes, learn = [], trainer.ppo.update
 
-    def record(batch: Batch, *rest: Any) -> Row:  # noqa: ANN401
+    def record(batch: Batch, *rest: Any, **options: Any) -> Row:  # noqa: ANN401
         sizes.append(len(batch))
-        return learn(batch, *rest)
+        return learn(batch, *rest, **options)
 
     monkeypatch.setattr(trainer.ppo, "update", record)
     trainer.update(batch, lambda: None)
