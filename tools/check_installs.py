@@ -43,6 +43,10 @@ INSTALLS: Final = {
     ),
     "'rsoccer[train]'": Install("import rsoccer.train, safetensors, torch, tensorboard"),
     "'rsoccer[cli]'": Install(COMMAND),
+    "'rsoccer[network]'": Install(
+        "import websockets, rsoccer.bridge.server, rsoccer.protocols.vision"
+    ),
+    "'rsoccer[cli,network]'": Install("import sys, rsoccer.cli; rsoccer.cli.main(['serve', '-h'])"),
     '"stable-baselines3>=2.4"': Install("import rsoccer.sb3; rsoccer.sb3.SoccerVecEnv('VSS-v0')"),
     '"stable-baselines3>=2.4" safetensors': Install("stable_baselines3"),
     '"torchrl>=0.14"': Install("torchrl"),
