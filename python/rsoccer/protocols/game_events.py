@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any, Final, NamedTuple
 
-from rsoccer.game import BLUE, NOBODY, YELLOW, Event, EventKind
+from rsoccer import game
+from rsoccer.game import BLUE, NOBODY, YELLOW, EventKind
 from rsoccer.protocols.errors import Code, MessageError
 from rsoccer.protocols.layout import MICROSECONDS, WireLayout
 from rsoccer.protocols.schemas import referee_pb2
@@ -22,7 +23,7 @@ _REASON: Final = "position at a penalty kick"
 class ReportedEvent(NamedTuple):
     """An event that packets tell again and again, so it has an identity."""
 
-    event: Event
+    event: game.Event
     """The event."""
     identity: str
     """Text unlike that of any other event of the match."""
@@ -68,7 +69,7 @@ def to_game_event(layout: WireLayout, reported: ReportedEvent) -> referee_pb2.Ga
     return message
 
 
-def _put_robot(layout: WireLayout, event: Event, content: Any) -> None:  # noqa: ANN401  (any event)
+def _put_robot(layout: WireLayout, event: game.Event, content: Any) -> None:  # noqa: ANN401  (any event)
     """Set the fields of the robot."""
     team, number = layout.identity(event.robot)
     fields = content.DESCRIPTOR.fields_by_name
@@ -112,7 +113,7 @@ def read_game_event(layout: WireLayout, message: referee_pb2.GameEvent) -> Repor
     if content is not None:
         robot = _robot(layout, content, team)
     return ReportedEvent(
-        Event(EventKind[name], team, robot, position),
+        game.Event(EventKind[name], team, robot, position),
         message.id or message.SerializeToString(deterministic=True).hex(),
         message.created_timestamp / MICROSECONDS,
     )

@@ -6,7 +6,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Final, NamedTuple
 
-from rsoccer.game import BLUE, YELLOW, Command, Event, Stage
+from rsoccer import game
+from rsoccer.game import BLUE, YELLOW, Command, Stage
 from rsoccer.protocols.errors import Code, MessageError, Problem
 from rsoccer.protocols.game_events import ReportedEvent, read_game_event, to_game_event
 from rsoccer.protocols.layout import MICROSECONDS, MILLIMETERS, WireLayout
@@ -131,7 +132,7 @@ class EventLog:
         self._count = 0
 
     def add(
-        self, command: Command, events: Iterable[Event], seconds: float
+        self, command: Command, events: Iterable[game.Event], seconds: float
     ) -> tuple[ReportedEvent, ...]:
         """Add the events of a step, and return all that a packet reports.
 
