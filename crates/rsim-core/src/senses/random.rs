@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use crate::math::Vector;
-use crate::streams::{STRIDE, mixed};
+use crate::streams::{STRIDE, mixed, unit};
 
 /// Purpose of random numbers. The numbers of two purposes are independent.
 #[derive(Debug, Clone, Copy)]
@@ -41,9 +41,7 @@ impl Draws {
 
     /// A number from 0 to below 1, with 24 bits.
     pub(super) fn uniform(&mut self) -> f32 {
-        #[expect(clippy::cast_precision_loss, reason = "24 bits fit exactly")]
-        let number = (self.next() >> 40) as f32;
-        number * (1.0 / 16_777_216.0)
+        unit(self.next())
     }
 
     /// Whether something of this probability happens. Nothing is drawn for 0.

@@ -213,31 +213,47 @@ fn a_world_forecasts_the_same_whatever_batch_and_threads_and_from_a_snapshot() {
 /// A forecaster on its own, at a late time of some clock.
 const CLOCK: f64 = 1.7e9;
 
+fn new_forecaster(scene: &Scene, threads: usize) -> Forecaster {
+    let threads = Threads::new(threads).expect("some");
+    Forecaster::new(&scene.config, 1, Knowledge::All, threads).expect("valid")
+}
+
+/// Plays a step that a forecaster is informed of. Writes the state and its forecast to `rows` and returns what
+/// senses know.
+fn step_both(
+    batch: &mut Batch,
+    forecaster: &mut Forecaster,
+    [rows, forecast]: [&mut Vec<f32>; 2],
+    scene: &Scene,
+    step: u32,
+    before: f64,
+) -> Vec<f32> {
+    let commands = scene.commands(rows, step.into(), 0);
+    forecaster.send(&commands, &[before], None).expect("in order");
+    batch.step(&commands, rows, None).expect("finite");
+    let mut known = rows.clone();
+    batch.sense(&mut known, None);
+    let now = [before + 0.025];
+    forecaster.forecast(rows, &now, &now, forecast).expect("valid");
+    known
+}
+
 #[test]
 fn a_forecaster_of_ones_own_forecasts_as_senses_do() {
     let [vss, ssl] = scenes_without_contacts();
     for mut scene in [vss, ssl, scenes::chase()] {
         scene.config.sensing = Some(late(0.06, 0.0));
         let (mut batch, mut rows) = scene.batch(1, 1);
-        let threads = Threads::new(1).expect("one");
-        let mut forecaster =
-            Forecaster::new(&scene.config, 1, Knowledge::All, threads).expect("valid");
+        let mut forecaster = new_forecaster(&scene, 1);
         let mut out = rows.clone();
         for step in 0..60_u32 {
             let before = CLOCK + f64::from(step) * 0.025;
-            let commands = scene.commands(&rows, step.into(), 0);
-            forecaster.send(&commands, &[before], None).expect("in order");
-            batch.step(&commands, &mut rows, None).expect("finite");
-            let mut known = rows.clone();
-            batch.sense(&mut known, None);
-            let now = [before + 0.025];
-            forecaster.forecast(&rows, &now, &now, &mut out).expect("valid");
+            let known =
+                step_both(&mut batch, &mut forecaster, [&mut rows, &mut out], &scene, step, before);
             assert!(difference(&known, &out) < 1e-6, "{step}");
             if step == 30 {
                 let saved = forecaster.snapshot();
-                let threads = Threads::new(2).expect("two");
-                forecaster =
-                    Forecaster::new(&scene.config, 1, Knowledge::All, threads).expect("valid");
+                forecaster = new_forecaster(&scene, 2);
                 forecaster.restore(&saved).expect("its own");
             }
         }
@@ -254,20 +270,13 @@ fn a_forecast_takes_the_delay_of_the_configuration_and_not_that_of_the_episode()
         scene.config.sensing = Some(sensing);
         let (mut batch, mut rows) = scene.batch(1, 1);
         batch.begin_senses(&[true], &keys(1), Some(&drawn.values())).expect("valid");
-        let threads = Threads::new(1).expect("one");
-        let mut forecaster =
-            Forecaster::new(&scene.config, 1, Knowledge::All, threads).expect("valid");
+        let mut forecaster = new_forecaster(&scene, 1);
         let mut out = rows.clone();
         let mut ahead = 0.0_f32;
         for step in 0..20_u32 {
             let before = f64::from(step) * 0.025;
-            let commands = scene.commands(&rows, step.into(), 0);
-            forecaster.send(&commands, &[before], None).expect("in order");
-            batch.step(&commands, &mut rows, None).expect("finite");
-            let mut known = rows.clone();
-            batch.sense(&mut known, None);
-            let now = [before + 0.025];
-            forecaster.forecast(&rows, &now, &now, &mut out).expect("valid");
+            let known =
+                step_both(&mut batch, &mut forecaster, [&mut rows, &mut out], &scene, step, before);
             assert!(difference(&known, &out) < 1e-6, "{}: {step}", scene.name);
             ahead = ahead.max(difference(&known, &rows));
         }
@@ -279,10 +288,7 @@ fn a_forecast_takes_the_delay_of_the_configuration_and_not_that_of_the_episode()
 fn rows_of_times_whose_commands_are_forgotten_are_refused() {
     let mut scene = scenes::vss_free();
     scene.config.sensing = Some(late(0.1, 0.0));
-    let new = || {
-        let threads = Threads::new(1).expect("one");
-        Forecaster::new(&scene.config, 1, Knowledge::All, threads).expect("valid")
-    };
+    let new = || new_forecaster(&scene, 1);
     let (mut forecaster, row) = (new(), scene.start.clone());
     for (time, speed) in [(1.0, 5.0), (1.1, 20.0), (1.2, -5.0)] {
         let commands = vec![speed; scene.config.command_size()];
