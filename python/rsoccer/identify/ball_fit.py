@@ -10,7 +10,7 @@ import numpy as np
 from rsoccer._core import BallModel
 from rsoccer.arrays import Doubles, Mask
 from rsoccer.identify.ball_runs import Run
-from rsoccer.identify.least_squares import Solution, solve
+from rsoccer.identify.least_squares import Solution, huber_loss, huber_weights, solve
 from rsoccer.identify.results import Estimate
 from rsoccer.identify.rolling import slid_and_rolled
 
@@ -41,6 +41,7 @@ _SHARED: Final = (
     ),
     _Shared("rolling_drag", "1/s", 0.002, 0.02, False, "balls that roll fast and slowly"),
 )
+_TOLERANCES: Final = np.array([each.tolerance for each in _SHARED])
 _SLIDING: Final = 0
 _ROLLING: Final = 2
 _DRAG: Final = 3
@@ -79,7 +80,7 @@ class BallFit:
         self._begin(start)
         free = np.array([True, True, True, False])
         self.solution = self._solved(start, free)
-        if not self._identified(self.solution, free)[_SLIDING]:
+        if not self.solution.identified(free, _TOLERANCES)[_SLIDING]:
             # Sliding as slow as rolling would explain the same.
             free[: _SLIDING + 2] = False
             self.slides = False
@@ -88,7 +89,7 @@ class BallFit:
         dragged = free.copy()
         dragged[_DRAG] = True
         with_drag = self._solved(self.solution.parameters, dragged)
-        identified = self._identified(with_drag, dragged)
+        identified = with_drag.identified(dragged, _TOLERANCES)
         drag, error = with_drag.parameters[_DRAG], with_drag.errors(identified)[_DRAG]
         # Without a drag that stands out, one deceleration describes the floor better.
         if identified[_ROLLING] and identified[_DRAG] and drag > _CLEAR * error:
@@ -96,7 +97,7 @@ class BallFit:
             return
         self._begin(self.solution.parameters)
         self.solution = self._solved(self.solution.parameters, free)
-        self.free = self._identified(self.solution, free)
+        self.free = self.solution.identified(free, _TOLERANCES)
 
     def estimates(self, rng: np.random.Generator) -> list[Estimate]:
         """Return the numbers of the floor, identified or not.
@@ -147,18 +148,6 @@ class BallFit:
         steps = np.array([each.step for each in _SHARED])
         return solve(self._residuals, start, steps, free)
 
-    def _identified(self, solution: Solution, free: Mask) -> Mask:
-        """Numbers with small standard errors, without the worst one after the other."""
-        tolerances = np.array([each.tolerance for each in _SHARED])
-        free = free.copy()
-        while free.any():
-            errors = np.where(free, solution.errors(free) / tolerances, 0.0)
-            worst = int(errors.argmax())
-            if errors[worst] <= 1.0:
-                break
-            free[worst] = False
-        return free
-
     @staticmethod
     def _encoded(values: list[float]) -> Doubles:
         pairs = zip(_SHARED, values, strict=True)
@@ -175,7 +164,7 @@ class BallFit:
         for index, run in enumerate(self.runs):
             few = min(12, len(run.times))
             slope = float(np.polyfit(run.times[:few], run.distances[:few], 1)[0])
-            speed = slope + 0.5 * float(run.times[few - 1]) * 1.0
+            speed = slope + 0.5 * float(run.times[few - 1])  # at 1 m/s²
             tries = [np.array([0.0, speed, share * speed]) for share in _SHARES]
             fitted = [self._fitted(floor, run, own) for own in tries]
             self.own[index] = min(fitted, key=lambda own: self._loss(floor, run, own))
@@ -200,7 +189,7 @@ class BallFit:
                     for step in np.diag(_STEPS)
                 ]
             )
-            weights = 1.0 / np.maximum(1.0, np.abs(now) / 3.0)
+            weights = huber_weights(now)
             curvature = slopes.T @ (slopes * weights[:, None])
             curvature += np.diag(1e-9 * np.diag(curvature) + 1e-9)
             change = np.linalg.solve(curvature, slopes.T @ (now * weights))
@@ -231,8 +220,7 @@ class BallFit:
         return misfit
 
     def _loss(self, floor: Doubles, run: Run, own: Doubles) -> float:
-        size = np.abs(self._misfit(floor, run, own))
-        return float(np.where(size < 3.0, size**2 / 2.0, 3.0 * (size - 1.5)).sum())
+        return huber_loss(self._misfit(floor, run, own))
 
 
 def _kick_speed(sliding: float, distance: float, speed: float, rest: float) -> float:

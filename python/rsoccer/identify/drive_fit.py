@@ -207,13 +207,5 @@ class DriveFit:
         return solve(self._residuals(windows), start, self.steps, self.free)
 
     def _identified(self, solution: Solution) -> Mask:
-        """Parameters with small standard errors, without the worst one after the other."""
         tolerances = np.array([each.tolerance for each in self.drive.parameters])
-        free: Mask = self.free.copy()
-        while free.any():
-            errors = np.where(free, solution.errors(free) / tolerances, 0.0)
-            worst = int(errors.argmax())
-            if errors[worst] <= 1.0:
-                break
-            free[worst] = False
-        return free
+        return solution.identified(self.free, tolerances)

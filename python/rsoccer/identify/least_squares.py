@@ -63,6 +63,22 @@ class Solution:
             found[free] = self.scale * np.sqrt(np.maximum(np.diag(inverse), 0.0)) / size
         return found
 
+    def identified(self, free: Mask, tolerances: Doubles) -> Mask:
+        """Return the parameters with small standard errors, without the worst one after the other.
+
+        Args:
+            free: (p,) parameters that were estimated.
+            tolerances: (p,) greatest standard errors with which they count as identified.
+        """
+        free = free.copy()
+        while free.any():
+            errors = np.where(free, self.errors(free) / tolerances, 0.0)
+            worst = int(errors.argmax())
+            if errors[worst] <= 1.0:
+                break
+            free[worst] = False
+        return free
+
     def intervals(self, free: Mask, rng: np.random.Generator) -> tuple[Doubles, Doubles]:
         """Return the ends of intervals of 95%: a bootstrap over the blocks, widened where few tell.
 
@@ -128,8 +144,8 @@ def solve(residuals: Residuals, start: Doubles, steps: Doubles, free: Mask) -> S
     first, width = start[index], steps[index]
     for _ in range(_ROUNDS):
         jacobian = _jacobian(residuals, parameters, now, steps, index, both_sides=False)
-        before = _loss(now, scale)
-        weights = _weights(now, scale)[..., None]
+        before = huber_loss(now, scale)
+        weights = huber_weights(now, scale)[..., None]
         curvature = np.einsum("bmi,bmj->ij", jacobian * weights, jacobian)
         slope = np.einsum("bmi,bm->i", jacobian * weights, now)
         while damping < 1e8:
@@ -140,19 +156,19 @@ def solve(residuals: Residuals, start: Doubles, steps: Doubles, free: Mask) -> S
                 trial[index] - change, first - _ALL * width, first + _ALL * width
             )
             there = residuals(trial)
-            if np.isfinite(there).all() and _loss(there, scale) < before:
+            if np.isfinite(there).all() and huber_loss(there, scale) < before:
                 break
             damping *= 8.0
         else:
             break
         parameters, now = trial, there
         # A damped step may be short where two numbers explain the same.
-        if damping <= _FREE and before - _loss(now, scale) < _ENOUGH * before:
+        if damping <= _FREE and before - huber_loss(now, scale) < _ENOUGH * before:
             break
         damping = max(damping / 30.0, _FREE / 10.0)
         scale = _scale(now)
     jacobian = _jacobian(residuals, parameters, now, steps, index)
-    weights = _weights(now, scale)[..., None]
+    weights = huber_weights(now, scale)[..., None]
     curvatures = np.zeros((len(now), len(start), len(start)))
     curvatures[np.ix_(np.arange(len(now)), index, index)] = np.einsum(
         "bmi,bmj->bij", jacobian * weights, jacobian
@@ -191,12 +207,23 @@ def _scale(residuals: Doubles) -> float:
     return max(1.4826 * float(np.median(np.abs(real))) if len(real) else 1.0, 0.5)
 
 
-def _weights(residuals: Doubles, scale: float) -> Doubles:
+def huber_weights(residuals: Doubles, scale: float = 1.0) -> Doubles:
+    """Return the weights of residuals by which weighted squares have the slopes of Huber's loss.
+
+    Args:
+        residuals: residuals.
+        scale: their standard deviation.
+    """
     weights: Doubles = 1.0 / np.maximum(1.0, np.abs(residuals) / (_OUTLIER * scale))
     return weights
 
 
-def _loss(residuals: Doubles, scale: float) -> float:
-    """Huber's loss."""
+def huber_loss(residuals: Doubles, scale: float = 1.0) -> float:
+    """Return Huber's loss: half of the square, and linear beyond three standard deviations.
+
+    Args:
+        residuals: residuals.
+        scale: their standard deviation.
+    """
     size = np.abs(residuals) / scale
     return float(np.where(size < _OUTLIER, size**2 / 2, _OUTLIER * (size - _OUTLIER / 2)).sum())

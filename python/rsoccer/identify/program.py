@@ -92,7 +92,8 @@ def program(
     """Return a program of steps forward, sideways, turning and combined, and of kicks or rolls.
 
     Every step is driven back, so the robot stays near its start: within 4 m for an SSL robot at its
-    top speed, and within a quarter of that at half of it. It begins in the middle of the field; for kicks at an end.
+    top speed, and within a quarter of that at half of it. It begins in the middle of the field; for
+    kicks at an end.
 
     Args:
         robot: the robot's model or the name of its preset; its limits set the lengths of steps.
