@@ -62,7 +62,6 @@ class ControlReader:
             data: the bytes.
             team: `BLUE` or `YELLOW`.
             previous: (robots, command) commands that hold where the message has no field.
-
         """
         message = _parsed(data) if self._is_usable else None
         if message is None:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from typing import Final
 
 from rsoccer._core import GAME_COLUMNS
-from rsoccer.bridge.session import Session
+from rsoccer.bridge.session import Datagram, Session
 from rsoccer.game import Command, Stage
 from rsoccer.protocols import referee, vssref
 from rsoccer.protocols.errors import MessageError
@@ -25,8 +26,8 @@ SOURCE: Final = "rSoccer-serve"
 """Identity of the sender."""
 
 
-class GameController:
-    """Packets of the SSL's game controller: on time, and at once when something happens."""
+class Officials(ABC):
+    """Packets of the referee of a match."""
 
     def __init__(self, session: Session) -> None:
         """Begin before the first packet.
@@ -35,6 +36,28 @@ class GameController:
             session: the match.
         """
         self._session = session
+
+    def datagrams(self) -> list[Datagram]:
+        """Return what the referee tells after a tick; nothing without a referee of its own."""
+        if self._session.arena.referee is None:
+            return []
+        return [Datagram("referee", data) for data in self.packets()]
+
+    @abstractmethod
+    def packets(self) -> list[bytes]:
+        """Return the packets that are due after a tick: none or one."""
+
+
+class GameController(Officials):
+    """Packets of the SSL's game controller: on time, and at once when something happens."""
+
+    def __init__(self, session: Session) -> None:
+        """Begin before the first packet.
+
+        Args:
+            session: the match.
+        """
+        super().__init__(session)
         self._stamper, self._events = referee.Stamper(), referee.EventLog()
         self._next = 0.0
         self._last: list[float] | None = None
@@ -63,7 +86,7 @@ class GameController:
         return [packet.SerializeToString()]
 
 
-class VssReferee:
+class VssReferee(Officials):
     """Packets of VSSReferee: when the command changes, and repeated."""
 
     def __init__(self, session: Session) -> None:
@@ -72,7 +95,7 @@ class VssReferee:
         Args:
             session: the match.
         """
-        self._session = session
+        super().__init__(session)
         self._next = 0.0
         self._last: tuple[int, int] | None = None
 

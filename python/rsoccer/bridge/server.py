@@ -147,7 +147,7 @@ class Server:
         sent: list[Datagram] = []
         for frame in session.arena.camera_frames:
             sent += self.ports.frames(frame)
-        sent += self.ports.officials()
+        sent += self.ports.officials.datagrams()
         for listener in self.listeners:
             listener(self, sent)
         return sent

@@ -40,6 +40,7 @@ class SslPorts:
     Attributes:
         inputs: names of the ports that receive.
         vision_port: port of vision, if a client asked for another one; else None.
+        officials: packets of the referee.
     """
 
     inputs: Final = ("control", "blue", "yellow", "grsim")
@@ -54,7 +55,7 @@ class SslPorts:
         self._status = status_ports
         self._session = session
         self._prepare()
-        self._officials = GameController(session)
+        self.officials = GameController(session)
         self._geometry_due = 0.0
         self.vision_port: int | None = None
 
@@ -84,12 +85,6 @@ class SslPorts:
             *(Datagram("vision", packet) for packet in packets),
             Datagram("tracker", tracked),
         ]
-
-    def officials(self) -> list[Datagram]:
-        """Return what the referee tells after a tick."""
-        if self._session.arena.referee is None:
-            return []
-        return [Datagram("referee", data) for data in self._officials.packets()]
 
     # -- What is received ------------------------------------------------------------------------
 

@@ -19,7 +19,11 @@ _RUNNING: Final = (Command.NORMAL_START, Command.FORCE_START)
 
 
 class VsssPorts:
-    """The ports of VSSS. Its protocols have no answers: what is refused is counted."""
+    """The ports of VSSS. Its protocols have no answers: what is refused is counted.
+
+    Attributes:
+        officials: packets of the referee.
+    """
 
     inputs: Final = ("command", "replacer")
     vision_port: int | None = None
@@ -31,7 +35,7 @@ class VsssPorts:
             session: the match.
         """
         self._session = session
-        self._officials = VssReferee(session)
+        self.officials = VssReferee(session)
 
     def frames(self, frame: CameraFrame) -> list[Datagram]:
         """Return what FIRASim's vision tells when a frame has arrived.
@@ -48,12 +52,6 @@ class VsssPorts:
             score=(int(blue), int(yellow)),
         )
         return [Datagram("vision", packet.SerializeToString())]
-
-    def officials(self) -> list[Datagram]:
-        """Return what the referee tells after a tick."""
-        if self._session.arena.referee is None:
-            return []
-        return [Datagram("referee", data) for data in self._officials.packets()]
 
     def receive(self, port: str, data: bytes, address: Address, now: float) -> list[Datagram]:
         """Return no answers to a message, which is obeyed: the protocols have none.
