@@ -118,10 +118,10 @@ def kick_target(field: FieldGeometry, view: View, stage: Array) -> DriveTarget:
     begins = is_facing & (-ahead > RUN_UP) & (np.abs(stage) == PREPARES)
     stage[begins] *= RUNS
     runs = np.abs(stage) == RUNS
-    way: Floats = np.where(runs, FOLLOW_THROUGH, -FOLLOW_THROUGH).astype(np.float32)
+    way: Floats = np.where(runs, FOLLOW_THROUGH, -FOLLOW_THROUGH)
     turn = np.where(is_facing | runs, np.float32(0.0), sine * TURN_GAIN)
-    to_x: Floats = position[..., 0] + way * u_x
-    to_y: Floats = position[..., 1] + way * u_y
+    to_x = position[..., 0] + way * u_x
+    to_y = position[..., 1] + way * u_y
     return DriveTarget(to_x, to_y, np.ones_like(x), turn)
 
 
