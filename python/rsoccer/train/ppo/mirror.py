@@ -22,7 +22,7 @@ from rsoccer.global_state import StateEncoder
 from rsoccer.history import ObservationStack
 from rsoccer.reflection import Reflection
 from rsoccer.task import Task
-from rsoccer.train.network.actor_critic import ActorCritic
+from rsoccer.train.network.evaluator import Evaluator
 from rsoccer.train.ppo.batch import Batch
 
 MIN_DENSITY_RATIO: Final = 0.5
@@ -46,7 +46,7 @@ def check_symmetric(task: Task) -> None:
 
 @torch.no_grad()
 def with_reflections(
-    batch: Batch, task: Task, stack: ObservationStack, model: ActorCritic
+    batch: Batch, task: Task, stack: ObservationStack, evaluator: Evaluator
 ) -> Batch:
     """Return a batch of up to twice the size: the samples, then those that can be reflected.
 
@@ -57,13 +57,14 @@ def with_reflections(
             reflection does not change.
         task: the task, which is symmetric.
         stack: what the networks observe of it.
-        model: the networks before the update.
+        evaluator: evaluates the networks as they are before the update.
     """
     symmetry, reflection = task.symmetry, stack.reflection(task)
     assert symmetry is not None and reflection is not None, "a symmetric task"
-    observations = _reflect(batch.observations, reflection) * model.mask
+    model = evaluator.model
+    observations = _reflect(batch.observations, reflection).mul_(model.mask)
     actions = _reflect(batch.actions, symmetry.action)
-    log_probs = model.log_prob(model.actor(observations), actions)
+    log_probs = model.log_prob(evaluator.mean(observations), actions)
     reflected = Batch(observations, actions, log_probs, batch.advantages, batch.returns)
     if batch.central_inputs is not None:
         states = batch.central_inputs[:, : -stack.size]

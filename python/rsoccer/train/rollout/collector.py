@@ -13,7 +13,8 @@ from rsoccer.arrays import Floats, Mask
 from rsoccer.matches import Matches
 from rsoccer.reflection import Reflection
 from rsoccer.train.clock import Clock
-from rsoccer.train.network.actor_critic import OBSERVATION_CLIP, ActorCritic
+from rsoccer.train.network.actor_critic import OBSERVATION_CLIP
+from rsoccer.train.network.evaluator import Evaluator
 from rsoccer.train.opponents.policy_mix import PolicyMix
 from rsoccer.train.rollout.central_inputs import CentralInputs
 from rsoccer.train.rollout.episode_stats import EpisodeStats, Row
@@ -42,7 +43,7 @@ class RolloutCollector:
     def __init__(
         self,
         settings: RolloutSettings,
-        model: ActorCritic,
+        evaluator: Evaluator,
         generator: torch.Generator,
         clock: Clock,
         kinds: tuple[str, ...] = (),
@@ -54,7 +55,7 @@ class RolloutCollector:
 
         Args:
             settings: settings of the rollouts.
-            model: the policy that acts.
+            evaluator: evaluates the policy that acts.
             generator: draws actions and truncations.
             clock: measures the time of acting and of the matches.
             kinds: names of the kinds of opponents; without a mix all are of the first kind.
@@ -62,9 +63,10 @@ class RolloutCollector:
             reflection: reflection of an observation that the statistics do not change under; None
                 for none.
         """
-        self._settings, self._model, self._generator = settings, model, generator
+        self._settings, self._generator = settings, generator
+        self._evaluator, self._model = evaluator, evaluator.model
         self._clock, self.central = clock, central
-        self.obs_rms = RunningMeanStd(model.observation_size, reflection=reflection)
+        self.obs_rms = RunningMeanStd(self._model.observation_size, reflection=reflection)
         self.states: Floats | None = None
         self.return_rms = RunningMeanStd(1, min_std=1e-6)
         self.episode_stats = EpisodeStats(kinds)
@@ -116,7 +118,7 @@ class RolloutCollector:
         """One decision in every world: the fields of a `Rollout`, (worlds x agents, ...)."""
         with self._clock.measure("acting"):
             observations = self._normalize(self.observations)
-            mean = self._model.actor(observations)
+            mean = self._evaluator.mean(observations)
             noise = torch.randn(mean.shape, generator=self._generator)
             actions = mean + noise * self._model.log_std.exp()
             log_probs = self._model.log_prob(mean, actions)
