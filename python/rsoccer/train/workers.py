@@ -1,8 +1,8 @@
 """Threads that share the parts of a computation, with results that do not depend on their number.
 
-NumPy, torch and the simulator leave the interpreter to other threads while they compute, so threads
-of Python keep all cores busy. Each job writes to a place of its own, and sums over jobs are taken in
-their order afterwards. Who does which job therefore changes no bit.
+NumPy, torch and the simulator leave the interpreter to other threads while they compute, so
+threads of Python keep all cores busy. Each job writes to a place of its own, and sums over jobs are
+taken in their order afterwards. Who does which job therefore changes no bit.
 """
 
 from __future__ import annotations

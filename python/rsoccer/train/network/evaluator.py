@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import functools
+from collections.abc import Callable
+
 import torch
 from torch import Tensor
 
@@ -50,9 +53,25 @@ class Evaluator:
         """
         return self._outputs(self.model.critic, self._critics, inputs).squeeze(-1)
 
-    def _outputs(
-        self, network: Perceptron, passes: list[PerceptronPass], inputs: Tensor
-    ) -> Tensor:
+    def actor(self, thread: int) -> PerceptronPass:
+        """Return the buffers of a thread for the policy.
+
+        Args:
+            thread: index of the thread.
+        """
+        return self._actors[thread]
+
+    def each_part(self, rows: int, do: Callable[[slice, int], None]) -> None:
+        """Do something for each part of some rows, on all threads.
+
+        Args:
+            rows: number of rows.
+            do: takes a part of the rows and the index of a thread; parts are done at the same time.
+        """
+        parts = shards(rows, SHARD)
+        self.workers.run([functools.partial(do, part) for part in parts])
+
+    def _outputs(self, network: Perceptron, passes: list[PerceptronPass], inputs: Tensor) -> Tensor:
         """Outputs of a network, (..., outputs)."""
         rows = inputs.reshape(-1, inputs.shape[-1])
         outputs = torch.empty((len(rows), len(network.linear()[-1].bias)))
@@ -60,6 +79,5 @@ class Evaluator:
         def evaluate(part: slice, thread: int) -> None:
             outputs[part] = passes[thread].outputs(rows[part])
 
-        parts = shards(len(rows), SHARD)
-        self.workers.run([lambda thread, p=part: evaluate(p, thread) for part in parts])
+        self.each_part(len(rows), evaluate)
         return outputs.reshape(*inputs.shape[:-1], -1)

@@ -56,10 +56,12 @@ def make_batch(
         gamma: discount factor per decision, 0 to 1.
     """
     values = evaluator.value(rollout.critic_inputs)
+    next_values = values.roll(-1, 0)
+    next_values[rollout.needs_next] = evaluator.value(rollout.next_inputs)
     advantages = compute_gae(
         rollout.rewards,
         values,
-        evaluator.value(rollout.next_critic_inputs),
+        next_values,
         rollout.terminated if settings.bootstrap_time_limits else rollout.ended,
         rollout.ended,
         gamma,
