@@ -1,9 +1,10 @@
 """Speed of the trainer, in three steps as Isaac Lab reports it: `python -m benches.training_speed`.
 
 Decisions a second of single robots in whole teams: of the simulation alone, with observations and
-policies, and with learning. Each update has three passes over its batch. `--base FOLDER` measures
-the trainer of another checkout in turn with this one, an update of each after the other, so that a
-busy machine slows both alike. `--store` renews `benches/results/training_speed.md`, which
+policies, and with learning. Each update has three passes over its batch. Speeds are made of the
+least times of single decisions and minibatches, so that other programs on the machine count little.
+`--base FOLDER` measures the trainer of another checkout in turn with this one, an update of each
+after the other. `--store` renews `benches/results/training_speed.md`, which
 `make docs` puts into `docs/speed.md`.
 """
 
@@ -13,7 +14,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from pathlib import Path
 from statistics import median
 from typing import IO, Final
@@ -102,18 +103,20 @@ def measure(
     with ExitStack() as stack:
         runs = [stack.enter_context(worker(root, task, threads, worlds)) for root in roots]
         found = [[run.update() for run in runs] for _ in range(rounds + 1)][1:]
-    times = [row[0] for row in found]
-    speeds = [
-        1.0 / median(getattr(each, name) for each in times)
-        for name in ("simulation", "rollout", "total")
-    ]
-    processor = format_number(1e6 * median(each.processor for each in times), 2)
+    least = [_least([row[index] for row in found]) for index in range(len(roots))]
+    own = least[0]
+    speeds = [1.0 / seconds for seconds in (own.simulation, own.rollout, own.total)]
+    processor = format_number(1e6 * median(row[0].processor for row in found), 2)
     cells = (f"`{task}`", str(threads), *map(format_number, speeds), f"{processor} us")
     if len(roots) == 1:
         return cells
-    wall = sorted(base.total / own.total for own, base in found)
-    spent = sorted(own.processor / base.processor for own, base in found)
-    return (*cells, *map(_ratio, (wall, spent)))
+    speed = f"{format_number(least[1].total / own.total, 3)}x"
+    return (*cells, speed, _ratio(sorted(row[0].processor / row[1].processor for row in found)))
+
+
+def _least(times: list[Times]) -> Times:
+    """Least seconds of each kind."""
+    return Times(*(min(values) for values in zip(*map(astuple, times), strict=True)))
 
 
 def _ratio(values: list[float]) -> str:

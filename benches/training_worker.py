@@ -3,6 +3,7 @@
 It is started by its path, so that it measures whatever package is first on the path of modules.
 """
 
+import itertools
 import math
 import sys
 import time
@@ -19,8 +20,9 @@ PASSES = 3
 def main(task: str, threads: int, worlds: int) -> None:
     """Play and learn once for each line, and print the times.
 
-    A line of the output has seconds of the simulator, of the rollout, of the update, and the time
-    of the processor for both, each per decision.
+    A line of the output has seconds of the simulator, of the rollout, of learning, and the time of
+    the processor for all, each per decision. The first three are made of the least times of single
+    decisions and minibatches, which other programs disturb least.
 
     Args:
         task: name of the task, with its recommended settings; whole teams learn.
@@ -39,17 +41,40 @@ def main(task: str, threads: int, worlds: int) -> None:
         )
     )
     update.TARGET_KL = math.inf
+    per_pass = trainer.args.ppo.n_minibatches
+    stamps: list[tuple[float, float]] = []
+
+    def stamp() -> None:
+        physics = trainer.clock.seconds.get("physics", 0.0)
+        stamps.append((time.perf_counter(), physics))
+
     for _ in sys.stdin:
         trainer.clock.take()
-        before, start, processor = trainer.samples, time.perf_counter(), time.process_time()
-        batch = trainer.collect_rollout(lambda: None)
-        played = time.perf_counter()
-        trainer.update(batch, lambda: None)
-        end, processor = time.perf_counter(), time.process_time() - processor
-        total, shares = trainer.clock.take()
-        times = shares["physics"] * total, played - start, end - played, processor
-        decisions = trainer.samples - before
-        sys.stdout.write(" ".join(str(seconds / decisions) for seconds in times) + "\n")
+        stamps.clear()
+        before, processor = trainer.samples, time.process_time()
+        batch = trainer.collect_rollout(stamp)
+        decisions = len(stamps)
+        trainer.update(batch, stamp)
+        processor = time.process_time() - processor
+        stamp()
+        spans = [
+            (end[0] - start[0], end[1] - start[1]) for start, end in itertools.pairwise(stamps)
+        ]
+        decision = min(spans[: decisions - 1])[0]
+        simulation = min(physics for _, physics in spans[: decisions - 1])
+        # The last decision, values, advantages, reflections.
+        batching = spans[decisions - 1][0] - decision
+        minibatches = [seconds for seconds, _ in spans[decisions:]]
+        last = minibatches[per_pass - 1 :: per_pass]  # of a pass, with what precedes the next one
+        one_pass = min(last) + (per_pass - 1) * min(minibatches)
+        times = (
+            simulation * decisions,
+            decision * decisions,
+            batching + PASSES * one_pass,
+            processor,
+        )
+        samples = trainer.samples - before
+        sys.stdout.write(" ".join(str(seconds / samples) for seconds in times) + "\n")
         sys.stdout.flush()
 
 

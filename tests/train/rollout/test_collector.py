@@ -16,7 +16,7 @@ from rsoccer.train.rollout import collector
 from rsoccer.train.rollout.samples import Rollout
 from rsoccer.train.rollout.transition import Transition, repeat_action
 from rsoccer.train.run.trainer import Trainer
-from tests.train.runs import digest
+from tests.train.runs import digest, run_until
 from tests.train.short_task import tiny
 
 LATE = {"sensing": "rc2021", "history": 3, "random_truncation": 0.2, "worlds": 12, "horizon": 12}
@@ -96,3 +96,9 @@ def test_runs_are_equal_for_any_number_of_threads(
         train(tiny(folder, threads=threads, samples=4 * 144, **changes))
         digests.add(digest(folder))
     assert len(digests) == 1
+
+
+def test_a_run_resumes_with_other_threads(finished: Path, tmp_path: Path) -> None:
+    run_until(tiny(tmp_path), 2 * 13 + 5)
+    train(tiny(tmp_path, resume=True, threads=3))
+    assert digest(tmp_path) == digest(finished)

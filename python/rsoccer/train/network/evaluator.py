@@ -12,8 +12,8 @@ from rsoccer.train.network.actor_critic import ActorCritic
 from rsoccer.train.network.perceptron import Perceptron, PerceptronPass
 from rsoccer.train.workers import Workers, shards
 
-SHARD = 512
-"""Rows of a part; their activations stay in the inner cache of a core."""
+SHARD = 256
+"""Rows of a part, few enough that the robots of some hundred matches occupy several threads."""
 
 
 class Evaluator:
