@@ -59,7 +59,7 @@ class PerceptronPass:
             inputs: (n, inputs) of the first layer.
         """
         n, last = len(inputs), self._layers[-1]
-        if n > self._capacity:
+        if n > self._capacity or not self._outputs:
             self._outputs = _buffers(n, [layer.bias for layer in self._layers])
             self._input_gradients, self._capacity = [], n
         self._activations = [inputs]
