@@ -1,7 +1,7 @@
 """Threads that share jobs: all are done once, errors arrive, parts cover the rows."""
 
 import threading
-from collections import Counter
+from functools import partial
 
 import pytest
 
@@ -13,21 +13,25 @@ from rsoccer.train.workers import Workers, shards
 def test_each_job_is_done_once_by_a_thread_of_the_workers(threads: int, jobs: int) -> None:
     workers = Workers(threads)
     for _ in range(3):
-        done: Counter[int] = Counter()
-        by: set[int] = set()
+        done: list[int] = []
+        by: list[int] = []
 
-        def job(index: int, thread: int) -> None:
-            done[index] += 1  # noqa: B023
-            by.add(thread)  # noqa: B023
+        def job(index: int, thread: int, done: list[int] = done, by: list[int] = by) -> None:
+            done.append(index)
+            by.append(thread)
 
-        workers.run([lambda thread, index=index: job(index, thread) for index in range(jobs)])
-        assert done == Counter(range(jobs))
-        assert by <= set(range(threads))
+        workers.run([partial(job, index) for index in range(jobs)])
+        assert sorted(done) == list(range(jobs))
+        assert set(by) <= set(range(threads))
 
 
 def test_jobs_run_at_the_same_time() -> None:
     together = threading.Barrier(2, timeout=10.0)
-    Workers(2).run([lambda _: together.wait()] * 2)  # type: ignore[list-item, return-value]
+
+    def meet(_: int) -> None:
+        together.wait()
+
+    Workers(2).run([meet] * 2)
     assert not together.broken
 
 

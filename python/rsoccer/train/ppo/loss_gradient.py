@@ -70,7 +70,7 @@ class LossGradient:
         for index, part in enumerate(parts):
             jobs += self._jobs(index, batch, rows[part], advantages[part], len(rows))
         self._workers.run(jobs)
-        # In the order of the parts, whoever was first.
+        # In the order of the parts.
         gradient = self._gradients[: len(parts)].sum(0)
         return gradient, self._stats[: len(parts)].sum(0).div_(len(rows))
 
