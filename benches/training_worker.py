@@ -40,7 +40,7 @@ def main(task: str, threads: int, worlds: int) -> None:
             **settings,
         )
     )
-    update.TARGET_KL = math.inf
+    vars(update)["TARGET_KL"] = math.inf  # all passes
     per_pass = trainer.args.ppo.n_minibatches
     stamps: list[tuple[float, float]] = []
 

@@ -59,8 +59,9 @@ def with_reflections(
         stack: what the networks observe of it.
         evaluator: evaluates the networks as they are before the update.
     """
-    symmetry, reflection = task.symmetry, stack.reflection(task)
-    assert symmetry is not None and reflection is not None, "a symmetric task"
+    symmetry, found = task.symmetry, stack.reflection(task)
+    assert symmetry is not None and found is not None, "a symmetric task"
+    reflection: Reflection = found
     model = evaluator.model
     observations, log_probs = torch.empty_like(batch.observations), torch.empty(len(batch))
     actions = _reflect(batch.actions, symmetry.action)
@@ -75,8 +76,8 @@ def with_reflections(
     reflected = Batch(observations, actions, log_probs, batch.advantages, batch.returns)
     if batch.central_inputs is not None:
         states = batch.central_inputs[:, : -stack.size]
-        reflection = StateEncoder(task.config).reflection
-        reflected.central_inputs = torch.cat([_reflect(states, reflection), observations], dim=-1)
+        mirrored = _reflect(states, StateEncoder(task.config).reflection)
+        reflected.central_inputs = torch.cat([mirrored, observations], dim=-1)
     likely = log_probs >= batch.log_probs + math.log(MIN_DENSITY_RATIO)
     return _joined(batch, reflected, likely.nonzero().squeeze(-1), evaluator)
 
