@@ -153,6 +153,7 @@ bench: $(VENV)/built ## measure the speed of this machine (some minutes; no othe
 	$(CARGO) bench --locked --package rsim-bench --bench step
 	$(BIN)/python -m benches.throughput
 	$(BIN)/python -m benches.whole_matches --store
+	$(BIN)/python -m benches.training_speed --store
 
 BEFORE ?= main
 compare: $(VENV)/built ## compare the speed of a step with that of an earlier commit, BEFORE=main

@@ -67,7 +67,7 @@ LAYERS = [
     {"bridge.server"},
     {"bridge.recording", "bridge.sockets"},
     {"bridge", "bridge.live_page"},
-    {"train.setting_types", "train.clock", "train.prefixes"},
+    {"train.setting_types", "train.clock", "train.prefixes", "train.workers"},
     {"train.network", "train.opponents", "train.rollout.settings", "train.run.settings"},
     {"train.rollout"},
     {"train.ppo"},
