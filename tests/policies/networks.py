@@ -79,7 +79,7 @@ def random_network(kind: str = "gaussian", activation: str = "tanh", history: in
     sizes = [size, 32, 16, outputs if table is None else len(table)]
     return Network.from_layers(
         task,
-        [(rng.normal(0.0, 0.3, (b, a)), rng.normal(0.0, 0.3, b)) for a, b in pairwise(sizes)],
+        [(rng.normal(0.0, a**-0.5, (b, a)), rng.normal(0.0, 0.3, b)) for a, b in pairwise(sizes)],
         [0.3, 0.4] if kind in ("gaussian", "squashed") else None,
         activation=activation,
         head="squashed" if kind in deviations else kind,

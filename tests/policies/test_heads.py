@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+import rsoccer
 from rsoccer.policies.heads import Deviation, Head
 from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import FORMAT, HEAD_FORMAT
@@ -61,7 +62,9 @@ def test_draws_have_the_mean_and_the_deviation_of_the_outputs() -> None:
     np.testing.assert_allclose(drawn.std(axis=0), [0.1, 0.3], rtol=0.05)
     squashed = Head("squashed", 4, deviation=gaussian.deviation)
     moved = squashed.drawn_actions(outputs.copy(), WorldRng.seeded(0, n))[:, 0]
-    np.testing.assert_allclose(moved, np.tanh(drawn), atol=1e-6)
+    inside = np.abs(drawn) < 1.0
+    assert inside.mean() > 0.9
+    np.testing.assert_allclose(moved[inside], np.tanh(drawn[inside]), atol=1e-6)
 
 
 def test_choices_are_drawn_by_their_probabilities() -> None:
@@ -127,8 +130,6 @@ def test_greedy_choices_have_no_noise() -> None:
 
 
 def test_choices_play_in_their_task() -> None:
-    import rsoccer
-
     task = make_task("VSS-v0", discrete=True)
     result = rsoccer.evaluate(random_network("categorical"), "zero", task=task, matches=2)
-    assert len(result.metrics["goal_score"]) == 2
+    assert (result.matches, result.metric) == (2, "goal_score")

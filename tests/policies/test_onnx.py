@@ -14,6 +14,7 @@ from onnx import TensorProto, helper, numpy_helper
 
 import rsoccer
 from rsoccer import policies
+from rsoccer.policies.labels import labels
 from rsoccer.policies.network import Network
 from rsoccer.policies.onnx_export import OPSET, onnx_bytes
 from rsoccer.policies.onnx_policy import OnnxPolicy
@@ -117,13 +118,13 @@ def test_a_file_plays_wherever_a_policy_is_named(tmp_path: Path) -> None:
     network.save(tmp_path / "mine.safetensors")
     onnx_file, plain = f"{tmp_path}/mine.onnx:mean", f"{tmp_path}/mine.safetensors:mean"
     results = [rsoccer.evaluate(name, "zero", matches=4) for name in (onnx_file, plain)]
-    returns = [result.metrics["goal_score"] for result in results]
-    assert np.array_equal(*returns)
+    assert results[0].score == results[1].score
+    assert results[0].mean_return == results[1].mean_return
     assert [result.task for result in results] == ["VSS-v0", "VSS-v0"]
     env = rsoccer.parallel_env("VSS-v0", controllers={"yellow": onnx_file})
     env.reset(seed=0)
     env.step({agent: np.zeros(2, np.float32) for agent in env.agents})
-    assert policies.labels.labels([onnx_file, plain])[0] == onnx_file
+    assert labels([onnx_file, plain])[0] == onnx_file
 
 
 def test_copies_act_as_the_original() -> None:
@@ -148,7 +149,7 @@ def test_models_of_other_programs_play(rows: int | str, tmp_path: Path) -> None:
     expected[1, 2, 0] = 0.75
     np.testing.assert_allclose(actions, expected)
     assert policies.trained_on(tmp_path / "a.onnx") is None
-    assert len(rsoccer.evaluate(tmp_path / "a.onnx", task=task, matches=2).lengths) == 2
+    assert rsoccer.evaluate(tmp_path / "a.onnx", task=task, matches=2).matches == 2
 
 
 def test_whole_numbers_choose_rows_of_a_discrete_task(tmp_path: Path) -> None:
