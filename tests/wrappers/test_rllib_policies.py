@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import rsoccer
+from rsoccer.match_evaluation import MatchEvaluation
 from rsoccer.policies.libraries import from_rllib
 from rsoccer.registry import make_task
 from rsoccer.rng import WorldRng
@@ -111,7 +112,7 @@ def test_an_algorithm_plays_with_its_normalization() -> None:
     from ray.rllib.algorithms.ppo import PPOConfig
     from ray.rllib.connectors.env_to_module import MeanStdFilter
 
-    from rsoccer.rllib import SoccerMultiAgentEnv
+    from rsoccer.rllib import EvaluationCallback, SoccerMultiAgentEnv
 
     def trained() -> Any:  # noqa: ANN401
         config = (
@@ -127,13 +128,16 @@ def test_an_algorithm_plays_with_its_normalization() -> None:
             .multi_agent(policies={"shared"}, policy_mapping_fn=lambda *_, **__: "shared")
             .rl_module(model_config=DefaultModelConfig(fcnet_hiddens=[16]))
             .training(train_batch_size_per_learner=20, minibatch_size=20, num_epochs=1)
+            .callbacks(on_train_result=EvaluationCallback(measured))
             .debugging(seed=3)
         )
         return config.build_algo()
 
+    measured = MatchEvaluation(("ou",), matches=2, every=20)
     algorithm = patiently(trained)
     try:
-        algorithm.train()
+        result = algorithm.train()
+        assert set(result["evaluation_matches"]) == {"goal_score_ou"}
         network = from_rllib(algorithm)
         (running,) = algorithm.env_runner._env_to_module.connectors[0]._filters.values()
         inputs = observations()

@@ -1,5 +1,6 @@
 """Models of Stable-Baselines3 as policies, against `predict`."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import gymnasium
@@ -7,6 +8,7 @@ import numpy as np
 import pytest
 
 import rsoccer
+from rsoccer.match_evaluation import MatchEvaluation
 from rsoccer.policies.libraries import from_sb3
 from rsoccer.policies.network import Network
 from rsoccer.registry import make_task
@@ -15,7 +17,7 @@ from rsoccer.rng import WorldRng
 stable_baselines3 = pytest.importorskip("stable_baselines3")
 vec_env = pytest.importorskip("stable_baselines3.common.vec_env")
 
-from rsoccer.sb3 import SoccerVecEnv, SoccerVecNormalize  # noqa: E402
+from rsoccer.sb3 import EvaluationCallback, SoccerVecEnv, SoccerVecNormalize  # noqa: E402
 
 gymnasium.register_envs(rsoccer)
 
@@ -134,3 +136,23 @@ def test_other_models_are_refused() -> None:
         from_sb3(other, make_task(TASK))
     with pytest.raises(ValueError, match="task: expected the task of the training"):
         from_sb3(stable_baselines3.PPO("MlpPolicy", "Pendulum-v1", device="cpu"))
+
+
+def test_a_callback_logs_scores_and_can_end_the_training(tmp_path: Any) -> None:  # noqa: ANN401
+    envs = SoccerVecEnv(TASK, worlds=2, max_steps=40)
+    model = new("PPO", envs)
+    measured = MatchEvaluation(
+        ("ou", "zero"), every=100, matches=2, task=TASK, folder=tmp_path, seconds=0.2
+    )
+    logged: list[dict[str, float]] = []
+
+    def stop(scores: Mapping[str, float]) -> bool:
+        assert set(scores) <= set(model.logger.name_to_value)
+        logged.append(dict(scores))
+        return len(logged) == 2
+
+    model.learn(1000, EvaluationCallback(measured, stop_when=stop, action_repeat=2))
+    assert [samples for samples, _ in measured.results] == [2, 102]
+    assert model.num_timesteps == 102
+    assert set(logged[0]) == {"evaluation/goal_score_ou", "evaluation/goal_score_zero"}
+    assert (tmp_path / "match_102.html").exists()
