@@ -38,6 +38,7 @@ LAYERS = [
     {"controllers"},
     {"lineup"},
     {
+        "matches.changes",
         "matches.learners",
         "matches.match_state",
         "matches.paused",
