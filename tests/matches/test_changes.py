@@ -24,7 +24,7 @@ def stepped(matches: Matches, steps: int, seed: int = 0) -> list[Any]:
     return [matches.step(rng.uniform(-1, 1, shape).astype(np.float32)) for _ in range(steps)]
 
 
-def begun(**settings: Any) -> Matches:
+def begun(**settings: Any) -> Matches:  # noqa: ANN401
     matches = Matches(TASK, N, 5, **settings)
     matches.reset()
     return matches
@@ -157,7 +157,9 @@ def test_other_options_are_refused(
     ],
 )
 def test_other_policies_are_refused(
-    controllers: Any, error: type[Exception], message: str  # noqa: ANN401
+    controllers: Any,  # noqa: ANN401
+    error: type[Exception],
+    message: str,
 ) -> None:
     matches = begun(controllers={"yellow": "ou"})
     with pytest.raises(error, match=message):

@@ -134,7 +134,7 @@ def test_the_normalization_of_gymnasium_is_part_of_the_policy() -> None:
 
 
 def test_other_agents_are_refused() -> None:
-    with pytest.raises(ValueError, match="agent: expected one with the parts .*, got 0"):
+    with pytest.raises(ValueError, match=r"agent: expected one with the parts .*, got 0"):
         from_cleanrl(nn.Sequential(nn.Linear(SIZE, ACTION)), TASK)
     with pytest.raises(ValueError, match="expected ReLU after fc1 and fc2"):
         from_cleanrl(SacActor(torch.tanh), TASK)

@@ -132,9 +132,7 @@ def test_copies_act_as_the_original() -> None:
     policy = OnnxPolicy(onnx_bytes(network))
     observations = task_observations(network)
     for other in (copy.deepcopy(policy), pickle.loads(pickle.dumps(policy))):
-        assert np.array_equal(
-            other.mean_actions(observations), policy.mean_actions(observations)
-        )
+        assert np.array_equal(other.mean_actions(observations), policy.mean_actions(observations))
 
 
 @pytest.mark.parametrize("rows", ["n", 1])

@@ -57,9 +57,7 @@ def observations(n: int = 50) -> np.ndarray:
 def distribution(module: Any, inputs: np.ndarray) -> Any:  # noqa: ANN401
     with torch.no_grad():
         outputs = module.forward_exploration({Columns.OBS: torch.from_numpy(inputs)}, t=0)
-    return module.get_exploration_action_dist_cls().from_logits(
-        outputs[Columns.ACTION_DIST_INPUTS]
-    )
+    return module.get_exploration_action_dist_cls().from_logits(outputs[Columns.ACTION_DIST_INPUTS])
 
 
 @pytest.mark.parametrize(
@@ -121,9 +119,7 @@ def test_an_algorithm_plays_with_its_normalization() -> None:
             .env_runners(
                 num_env_runners=0,
                 rollout_fragment_length=20,
-                env_to_module_connector=lambda env, spaces, device: MeanStdFilter(
-                    multi_agent=True
-                ),
+                env_to_module_connector=lambda env, spaces, device: MeanStdFilter(multi_agent=True),
             )
             .multi_agent(policies={"shared"}, policy_mapping_fn=lambda *_, **__: "shared")
             .rl_module(model_config=DefaultModelConfig(fcnet_hiddens=[16]))

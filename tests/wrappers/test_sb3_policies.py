@@ -132,7 +132,7 @@ def test_other_models_are_refused() -> None:
     with pytest.raises(ValueError, match="without use_sde"):
         from_sb3(model)
     other = stable_baselines3.PPO("MlpPolicy", SoccerVecEnv("SSLGoToBall-v0"), device="cpu")
-    with pytest.raises(ValueError, match="the model takes observations of .* numbers, but task"):
+    with pytest.raises(ValueError, match=r"the model takes observations of .* numbers, but task"):
         from_sb3(other, make_task(TASK))
     with pytest.raises(ValueError, match="task: expected the task of the training"):
         from_sb3(stable_baselines3.PPO("MlpPolicy", "Pendulum-v1", device="cpu"))

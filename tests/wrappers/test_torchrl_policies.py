@@ -42,7 +42,9 @@ def sizes() -> tuple[int, int]:
 
 
 def actor_of(
-    body: nn.Module, distribution: Any = TanhNormal, keys: tuple[str, ...] = ("loc", "scale")
+    body: nn.Module,
+    distribution: Any = TanhNormal,  # noqa: ANN401
+    keys: tuple[str, ...] = ("loc", "scale"),
 ) -> Any:  # noqa: ANN401
     """A probabilistic actor of robots of blue."""
     return ProbabilisticActor(
@@ -69,7 +71,9 @@ def random_observations(n: int = 40) -> np.ndarray:
 def multi_agent(share: bool = True, **settings: Any) -> Any:  # noqa: ANN401
     o, a = sizes()
     settings = {"centralized": False, "num_cells": [32, 16], **settings}
-    return MultiAgentMLP(o, 2 * a, ROBOTS, share_params=share, **settings)
+    if share:
+        return MultiAgentMLP(o, 2 * a, ROBOTS, share_params=True, **settings)
+    return MultiAgentMLP(o, 2 * a, ROBOTS, share_params=False, **settings)
 
 
 @pytest.mark.parametrize(
@@ -174,5 +178,5 @@ def test_other_actors_are_refused() -> None:
     beta = actor_of(
         nn.Sequential(multi_agent(), NormalParamExtractor()), torch.distributions.Laplace
     )
-    with pytest.raises(ValueError, match="expected a distribution of .*, got Laplace"):
+    with pytest.raises(ValueError, match=r"expected a distribution of .*, got Laplace"):
         from_torchrl(beta, TASK)

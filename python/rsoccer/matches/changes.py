@@ -69,7 +69,7 @@ def option_names(task: Task) -> list[str]:
 
 
 def _differences(task: Task, changed: Task) -> dict[str, str]:
-    """What differs of what must stay, in words by name."""
+    """Parts that must stay and differ, in words by name."""
     different = {
         name: "sizes, robots and physics"
         for name in FIXED
@@ -145,9 +145,7 @@ def change_controllers(task: Task, assignment: Assignment, controllers: Controll
         )
 
 
-def _controller_of(
-    task: Task, group: PolicyGroup, given: Mapping[str, Any]
-) -> PolicyLike | None:
+def _controller_of(task: Task, group: PolicyGroup, given: Mapping[str, Any]) -> PolicyLike | None:
     """The new controller of a group's robots; None if it stays."""
     found = []
     for robot in (task.robots[index] for index in group.robots):

@@ -58,10 +58,10 @@ Seed = int | Sequence[int | None] | None
 
 
 class Listener(Protocol):
-    """What `Matches.attach` tells of steps."""
+    """An object that follows the steps of matches, see `Matches.attach`."""
 
     world: int
-    """Index of the world whose episodes it is told of."""
+    """Index of the world whose episodes it follows."""
 
     def begin(self) -> None:
         """Take note that an episode of the world has begun."""
@@ -451,7 +451,7 @@ class Matches:
         self._start_rows = rows
 
     def attach(self, listener: Listener) -> None:
-        """Tell an object of each step and each begin of an episode, before worlds reset.
+        """Let an object follow each step, before worlds reset, and each begin of an episode.
 
         Args:
             listener: such as a `Recorder`.
@@ -460,7 +460,7 @@ class Matches:
             self._listeners.append(listener)
 
     def detach(self, listener: Listener) -> None:
-        """Tell an object of nothing more.
+        """Let an object follow no further steps.
 
         Args:
             listener: one that `attach` got; others are ignored.
@@ -646,9 +646,7 @@ class Matches:
         """Begin episodes in k worlds, from `rows` (k, row) or from the task's initial states."""
         streams = next_streams(self._streams(), worlds, seeds)
         if rows is None and self._starts.can_place:
-            rows = self.task.get_initial_positions_frame(streams["start"]).rows
-            if self._start_rows is not None:
-                rows = self._start_rows[streams["start"].integers(len(self._start_rows))]
+            rows = self._drawn_start(streams["start"])
         part = self._new_play(len(worlds), streams["task"])
         if "senses" in streams:
             part.senses = self._new_senses(part.frame, streams["senses"])
@@ -670,6 +668,18 @@ class Matches:
             self._variation.put(worlds, streams["randomization"])
         if len(worlds) == self.worlds:
             self._consistency.repair()
+        self._announce(worlds)
+
+    def _drawn_start(self, rng: WorldRng) -> Floats:
+        """Initial states (k, row) for k worlds: the task's own, or drawn from those given."""
+        rows = self.task.get_initial_positions_frame(rng).rows
+        if self._start_rows is None:
+            return rows
+        drawn: Floats = self._start_rows[rng.integers(len(self._start_rows))]
+        return drawn
+
+    def _announce(self, worlds: Indices) -> None:
+        """Let those who follow these worlds know that episodes have begun."""
         for listener in self._listeners:
             if listener.world in worlds:
                 listener.begin()

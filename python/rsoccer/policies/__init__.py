@@ -204,9 +204,9 @@ def _expected(path: str) -> str:
     if inside.is_file():
         return f"it is a folder; the policy file in it is {inside}"
     return (
-        f"expected one of {list_policies()}, or the path of a policy file (*{SUFFIX}, *{ONNX_SUFFIX}); "
-        "a policy of your own is known after the import of the module that registers it, as with --import "
-        "MODULE"
+        f"expected one of {list_policies()}, or the path of a policy file (*{SUFFIX}, "
+        f"*{ONNX_SUFFIX}); a policy of your own is known after the import of the module that "
+        "registers it, as with --import MODULE"
     )
 
 

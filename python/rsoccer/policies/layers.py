@@ -60,7 +60,9 @@ def read_layers(layers: Layers, activation: str | None = None) -> tuple[Pairs, s
     if wrong := [part for part in given if not isinstance(part, tuple | list) or len(part) != 2]:
         raise TypeError(f"layers: expected pairs (weight, bias), got {type(wrong[0]).__name__}")
     if found is not None and activation not in (None, found):
-        raise ValueError(f"activation: expected {found!r} as the modules have it, got {activation!r}")
+        raise ValueError(
+            f"activation: expected {found!r} as the modules have it, got {activation!r}"
+        )
     name = activation or found or "tanh"
     checked_activation(name)
     return [(np.asarray(w, np.float32), np.asarray(b, np.float32)) for w, b in given], name

@@ -16,7 +16,7 @@ from rsoccer.arrays import Array, Floats
 from rsoccer.policies import policy_file, training_conditions
 from rsoccer.policies.activations import activation as activation_of
 from rsoccer.policies.fits import check_fits
-from rsoccer.policies.heads import CHOOSING, Deviation, Head
+from rsoccer.policies.heads import CHOOSING, Deviation
 from rsoccer.policies.held_actions import HeldActions
 from rsoccer.policies.layers import read_layers
 from rsoccer.registry import as_task, options_of
@@ -42,9 +42,10 @@ class Network(HeldActions):
 
     In mode "sample" each decision is drawn from the distribution of the training, with the random
     stream of each world. Mode "mean" is deterministic: the mean of a Gaussian, the most likely one
-    of discrete choices. A robot may then stay stuck where noise would free it. With `action_repeat` k the network decides at every k-th control step and holds
-    its action in between, as in training. With a `history` it stacks its last observations and
-    actions itself, so it plays wherever a network without one does.
+    of discrete choices. A robot may then stay stuck where noise would free it. With `action_repeat`
+    k the network decides at every k-th control step and holds its action in between, as in
+    training. With a `history` it stacks its last observations and actions itself, so it plays
+    wherever a network without one does.
 
     Matrix products are not bit-equal between batch sizes, so actions differ by about 1e-6 between
     batch sizes. For reproducible numbers play in chunks of one size, as `rsoccer.evaluate` does.
@@ -297,10 +298,9 @@ class Network(HeldActions):
 
     def arrays(self) -> dict[str, NDArray[np.float32]]:
         """Return copies of all arrays, by their names in the policy file."""
+        optional = {"action_std": self.head.action_std, "action_table": self.head.table}
         named = {"mean": self.mean, "std": self.std}
-        for name, array in (("action_std", self.head.action_std), ("action_table", self.head.table)):
-            if array is not None:
-                named[name] = array
+        named |= {name: array for name, array in optional.items() if array is not None}
         for index, (weight, bias) in enumerate(self.layers):
             named[f"layers.{index}.weight"] = weight
             named[f"layers.{index}.bias"] = bias

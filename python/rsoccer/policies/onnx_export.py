@@ -31,7 +31,7 @@ from rsoccer.policies.policy_file import ONNX_SUFFIX
 if TYPE_CHECKING:
     from rsoccer.arrays import Array
     from rsoccer.policies.heads import Deviation
-    from rsoccer.policies.network import Network
+    from rsoccer.policies.perceptron import Perceptron
 
 OPSET: Final = 17
 """Version of ONNX's operators. Runtimes of 2022 and later know it."""
@@ -50,7 +50,7 @@ _OPERATORS: Final = {
 }
 
 
-def onnx_bytes(network: Network) -> bytes:
+def onnx_bytes(network: Perceptron) -> bytes:
     """Return a network as an ONNX file; equal networks give equal bytes.
 
     Args:
@@ -65,7 +65,7 @@ def onnx_bytes(network: Network) -> bytes:
     return graph.file(network, shapes)
 
 
-def write_onnx(network: Network, path: Path) -> None:
+def write_onnx(network: Perceptron, path: Path) -> None:
     """Write a network as an ONNX file, atomically.
 
     Args:
@@ -110,7 +110,7 @@ class _Graph:
         )
         return output
 
-    def file(self, network: Network, shapes: Mapping[str, int]) -> bytes:
+    def file(self, network: Perceptron, shapes: Mapping[str, int]) -> bytes:
         """The bytes of the file with outputs of some sizes by name."""
         helper = self._onnx.helper
 
@@ -139,7 +139,7 @@ class _Graph:
         return content
 
 
-def _layers(graph: _Graph, network: Network) -> str:
+def _layers(graph: _Graph, network: Perceptron) -> str:
     """Add the normalization and the layers; return the name of the last layer's outputs."""
     centered = graph.node("Sub", [INPUT, graph.constant("offset", network.mean)], "centered")
     scaled = graph.node("Div", [centered, graph.constant("scale", network.std)], "scaled")
@@ -158,11 +158,13 @@ def _layers(graph: _Graph, network: Network) -> str:
 def _activation(graph: _Graph, name: str, values: str, output: str) -> str:
     """Add an activation."""
     if name == "silu":
-        return graph.node("Mul", [values, graph.node("Sigmoid", [values], f"{output}_gate")], output)
+        return graph.node(
+            "Mul", [values, graph.node("Sigmoid", [values], f"{output}_gate")], output
+        )
     return graph.node(_OPERATORS[name], [values], output)
 
 
-def _head(graph: _Graph, network: Network, outputs: str) -> dict[str, int]:
+def _head(graph: _Graph, network: Perceptron, outputs: str) -> dict[str, int]:
     """Add the head; return the sizes of the graph's outputs by name."""
     head, size = network.head, network.action_size
     if head.table is not None:
@@ -206,7 +208,9 @@ def _deviation(graph: _Graph, deviation: Deviation, raw: str) -> None:
         shift, offset, least = deviation.numbers
         moved = graph.node("Add", [raw, graph.constant("shift", shift)], "shifted")
         soft = graph.node("Softplus", [moved], "soft")
-        offset_soft = graph.node("Add", [soft, graph.constant("soft_offset", offset)], "offset_soft")
+        offset_soft = graph.node(
+            "Add", [soft, graph.constant("soft_offset", offset)], "offset_soft"
+        )
         graph.node("Max", [offset_soft, graph.constant("least_std", least)], "std")
         return
     low, high = deviation.numbers

@@ -177,11 +177,13 @@ class OnnxPolicy(HeldActions):
             raise ValueError(f"mode: expected one of {MODES}, got {mode!r}")
         can_sample = self._own and bool({"std", "logits"} & set(self._outputs))
         if mode == "sample" and not can_sample:
-            raise ValueError("mode: expected 'mean', as the model has no distribution, got 'sample'")
+            raise ValueError(
+                "mode: expected 'mean', as the model has no distribution, got 'sample'"
+            )
         return mode or ("sample" if can_sample else "mean")
 
     def _probed_size(self) -> int:
-        """Numbers in an action, found by a run, as files may leave sizes open; 0 for unknown rows."""
+        """Numbers in an action, found by a run, as sizes may be open; 0 for unknown rows."""
         (actions,) = self._run(np.zeros((1, self.observation_size), np.float32), [self._action])
         if actions.dtype.kind in "iu" and actions.size == 1:
             return 0 if self._table is None else int(self._table.shape[1])

@@ -6,7 +6,7 @@ normalization of its observations, and how it acts. With observation size o, act
 
 | array | shape | dtype | content |
 | --- | --- | --- | --- |
-| `layers.<i>.weight` | (out, in) | float32 | weights of layer i; layer 0 takes o, layer k gives what the head takes |
+| `layers.<i>.weight` | (out, in) | float32 | weights of layer i; layer 0 takes o |
 | `layers.<i>.bias` | (out,) | float32 | biases of layer i |
 | `mean` | (o,) | float32 | mean of the observations in training |
 | `std` | (o,) | float32 | standard deviation of the observations in training, above 0 |
@@ -18,22 +18,24 @@ The metadata are text:
 
 | key | value | meaning |
 | --- | --- | --- |
-| `format` | `rsoccer-policy-2`, or `-3` with a `head` or a `deviation` | version of this format |
+| `format` | `rsoccer-policy-2`; `-3` with a head or deviation | version of this format |
 | `task` | a task's name | task of the training, for `make_task` |
 | `task_options` | JSON object; optional | options of `make_task` that the training set |
 | `sensing` | JSON of a `Sensing`, or `module:name`; optional | what robots knew in training |
 | `randomization` | JSON object; optional | distributions of numbers in training, by name |
 | `observation_size` | o | numbers in an observation, a stacked one with a `history` |
 | `action_size` | a | numbers in an action |
-| `activation` | `tanh`, `relu`, `leaky_relu`, `elu` or `silu` | activation after each layer but the last |
-| `head` | `gaussian` (default), `squashed`, `categorical` or `greedy` | meaning of the outputs of layer k, see `rsoccer.policies.heads` |
-| `deviation` | such as `exp -20 2`; optional | standard deviation as a function of the second half of the outputs of layer k, see `Deviation` |
+| `activation` | `tanh`, `relu`, ... | after each layer but the last, see `activations` |
+| `head` | `gaussian` (default), ... | meaning of the outputs of layer k, see `heads` |
+| `deviation` | such as `exp -20 2`; optional | standard deviation as a function of outputs |
 | `clip` | above 0, default 10 | bound of a normalized observation, in standard deviations |
 | `action_repeat` | 1 (default) to 1000000 | control steps for which an action is held |
 | `history` | 1 (default) or more | observations in a stacked one, see `rsoccer.history` |
 | `layout` | `Task.layout`; optional | observation blocks of the task; must equal those in play |
 | `training` | JSON object; optional | `command`, `samples`, `seed`, `package`, `physics` |
 | `scores` | JSON list; optional | results: objects with the fields of `Score` |
+
+Other heads than the plain Gaussian, and deviations, are described in `rsoccer.policies.heads`.
 
 `training` says how the policy was made: the command, the decisions that it learned from, the seed,
 and the versions of the package and of its physics in which the scores were measured. `sensing` and
@@ -121,9 +123,7 @@ def read_metadata(metadata: Mapping[str, str]) -> tuple[np.float32, int]:
     """
     version = HEAD_FORMAT if {"head", "deviation"} & set(metadata) else FORMAT
     if metadata.get("format") != version:
-        raise ValueError(
-            f"metadata 'format' should be {version!r}, got {metadata.get('format')!r}"
-        )
+        raise ValueError(f"metadata 'format' should be {version!r}, got {metadata.get('format')!r}")
     if metadata.get("activation") not in ACTIVATIONS:
         raise ValueError(
             f"metadata 'activation' should be one of {tuple(ACTIVATIONS)}, "

@@ -10,7 +10,7 @@ from torch import Tensor, distributions, nn
 
 if TYPE_CHECKING:
     from rsoccer.policies.heads import Deviation
-    from rsoccer.policies.network import Network
+    from rsoccer.policies.perceptron import Perceptron
 
 _ACTIVATIONS: Final[dict[str, Callable[[], nn.Module]]] = {
     "tanh": nn.Tanh,
@@ -43,7 +43,7 @@ class TorchNetwork(nn.Module):
     std: Tensor
     action_table: Tensor | None
 
-    def __init__(self, network: Network) -> None:
+    def __init__(self, network: Perceptron) -> None:
         """Copy a network.
 
         Args:

@@ -1,4 +1,4 @@
-"""Policies of models that other libraries have trained: a line from a model to something that plays.
+"""Policies of models that other libraries have trained, one line each.
 
 >>> from rsoccer.policies.libraries import from_sb3  # doctest: +SKIP
 >>> policy = from_sb3(model)  # doctest: +SKIP

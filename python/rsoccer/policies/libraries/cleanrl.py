@@ -156,7 +156,10 @@ def _compare(agent: Any, layers: list[Any], of_outputs: Callable[[Any], Any]) ->
 def _normalization(envs: object, clip: float) -> Normalization:
     """Normalization of a `NormalizeObservation` in the chain of the environments."""
     for each in chain(envs):
-        for candidate in [each, *(part for env in getattr(each, "envs", [])[:1] for part in chain(env))]:
+        for candidate in [
+            each,
+            *(part for env in getattr(each, "envs", [])[:1] for part in chain(env)),
+        ]:
             if "obs_rms" in getattr(candidate, "__dict__", {}):
                 statistics = candidate.obs_rms
                 return running_normalization(

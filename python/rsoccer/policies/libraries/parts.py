@@ -38,7 +38,7 @@ class Normalization:
 
 @dataclass(frozen=True)
 class Actor:
-    """What a model computes, without its library."""
+    """Layers and head of a model, without its library."""
 
     layers: Layers
     """linear layers and activations, from the observation to the outputs of the head"""

@@ -50,9 +50,7 @@ def from_sb3(
     """
     policy = getattr(model, "policy", None)
     if policy is None:
-        raise TypeError(
-            f"model: expected one of Stable-Baselines3, got {type(model).__name__}"
-        )
+        raise TypeError(f"model: expected one of Stable-Baselines3, got {type(model).__name__}")
     env = model.get_env()
     found = task_of(task, env)
     if getattr(model, "use_sde", False):

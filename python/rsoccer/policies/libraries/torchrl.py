@@ -66,7 +66,7 @@ def from_torchrl(
             head = _head(part)
         elif name in ("NormalParamExtractor", "AddStateIndependentNormalScale"):
             scales.append(part)
-        elif hasattr(part, "share_params") and hasattr(part, "params"):
+        elif hasattr(part, "get_stateful_net"):
             layers += _of_agent(part, agent)
         else:
             layers.append(part)
@@ -116,7 +116,7 @@ def _of_agent(part: Any, agent: int) -> list[Any]:  # noqa: ANN401
             "actor: expected a MultiAgentMLP with centralized=False, as a robot reads its own "
             "observation alone, got centralized=True"
         )
-    if not part.share_params and not 0 <= agent < part.n_agents:
+    if not _is_shared(part) and not 0 <= agent < part.n_agents:
         raise ValueError(f"agent: expected 0 to {part.n_agents - 1}, got {agent}")
     modules: list[Any] = []
     for module in part.get_stateful_net():
@@ -124,13 +124,18 @@ def _of_agent(part: Any, agent: int) -> list[Any]:  # noqa: ANN401
             modules.append(module)
             continue
         weight, bias = (
-            tensor.detach() if part.share_params else tensor.detach()[agent]
+            tensor.detach() if _is_shared(part) else tensor.detach()[agent]
             for tensor in (module.weight, module.bias)
         )
         linear = nn.Linear(weight.shape[1], weight.shape[0])
         linear.weight.data, linear.bias.data = weight.clone(), bias.clone()
         modules.append(linear)
     return modules
+
+
+def _is_shared(part: Any) -> bool:  # noqa: ANN401
+    """Whether the robots of a `MultiAgentMLP` share its weights."""
+    return bool(part.share_params)
 
 
 def _deviation(part: Any) -> tuple[Any, Deviation | None]:  # noqa: ANN401
@@ -162,7 +167,7 @@ def _normalization(env: object) -> Normalization:
             name = type(transform).__name__
             if name.startswith("VecNorm"):
                 raise ValueError(
-                    "env: expected ObservationNorm, got VecNorm; give its statistics as mean and std"
+                    "env: expected ObservationNorm, got VecNorm; give its mean and std"
                 )
             if name != "ObservationNorm":
                 continue

@@ -1,4 +1,4 @@
-"""What a callback of a training run gets after each update, and what it may answer."""
+"""The state of a training run that its callback gets, and the callback."""
 
 from __future__ import annotations
 

@@ -91,7 +91,7 @@ class Loop:
         self.trainer.network().save(out / POLICY_FILE)
 
     def _ends(self, row: Row, saved: Checkpoint) -> bool:
-        """Call the callback, and return whether it ends the run; after an error the run is saved."""
+        """Return whether the callback ends the run, which is saved if it fails."""
         if self._callback is None:
             return False
         try:
