@@ -191,7 +191,7 @@ def test_copies_of_environments_keep_the_changes() -> None:
     assert np.array_equal(ends[0][1][0], ends[1][1][0])
     assert ends[1][1][3], "the time limit holds"
     starts = [each.reset()[0] for each in (env, other)]
-    assert np.array_equal(*starts)
+    assert np.array_equal(starts[0], starts[1])
     assert isinstance(other.matches, EnvMatches)
 
 

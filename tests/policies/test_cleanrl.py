@@ -129,7 +129,7 @@ def test_the_normalization_of_gymnasium_is_part_of_the_policy() -> None:
         network.mean_actions(plain), expected.clamp(-1, 1).detach(), rtol=0, atol=1e-5
     )
     assert not np.allclose(plain, normalized)
-    assert (network.task_name, network.clip) == (TASK, 10.0)
+    assert (network.task_name, float(network.clip)) == (TASK, 10.0)
     assert rsoccer.evaluate(network, "zero", matches=2).matches == 2
 
 

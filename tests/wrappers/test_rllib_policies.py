@@ -36,7 +36,7 @@ def module_of(kind: Any = DefaultPPOTorchRLModule, discrete: bool = False, **con
     """A module with random weights."""
     task = make_task(TASK, discrete=discrete)
     observed = Box(-2.0, 2.0, (task.layout.size,))
-    acted = Box(-1.0, 1.0, (task.action_size,))
+    acted: Any = Box(-1.0, 1.0, (task.action_size,))
     if task.action_table is not None:
         acted = Discrete(len(task.action_table))
     torch.manual_seed(0)
@@ -45,7 +45,7 @@ def module_of(kind: Any = DefaultPPOTorchRLModule, discrete: bool = False, **con
     if extra:
         config["twin_q"] = False
     else:
-        config = DefaultModelConfig(**config)  # type: ignore[assignment]
+        config = DefaultModelConfig(**config)
     return kind(observation_space=observed, action_space=acted, model_config=config, **extra)
 
 

@@ -41,7 +41,8 @@ def changed_task(task: Task, options: Mapping[str, Any]) -> Task:
         raise TypeError(f"options: unknown {unknown}; valid are {names}")
     known = options_of(task)
     if known is None:
-        changed = dataclasses.replace(task, **options)
+        replaced: Any = task
+        changed: Task = dataclasses.replace(replaced, **options)
     else:
         changed = make_task(task.name, **{**known, **options})
     for name, what in _differences(task, changed).items():
@@ -131,9 +132,9 @@ def change_controllers(task: Task, assignment: Assignment, controllers: Controll
             )
     made: dict[int | str, Any] = {}
     changes = [
-        (group, _policy(task, group, controller, made, group.robots[0] in assignment.observers))
+        (group, _policy(task, group, new, made, group.robots[0] in assignment.observers))
         for group in assignment.groups
-        if (controller := _controller_of(task, group, given)) is not None
+        if (new := _controller_of(task, group, given)) is not None
     ]
     if not changes:
         raise ValueError(f"controllers: expected robots with policies, got {sorted(given)}")

@@ -199,7 +199,10 @@ class Head:
             return drawn
         size = self.action_size
         actions = outputs[..., :size]
-        std = self.action_std if self.deviation is None else self.deviation.of(outputs[..., size:])
+        std = self.action_std
+        if self.deviation is not None:
+            std = self.deviation.of(outputs[..., size:])
+        assert std is not None, "checked above"
         actions += std * rng.normal(actions.shape[1:])
         return self._bounded(actions)
 

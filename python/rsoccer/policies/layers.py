@@ -85,8 +85,9 @@ def _pairs_of_modules(modules: list[Any]) -> tuple[list[Any], str | None]:
 
     flat = [part for part in _flat(modules) if type(part).__name__ not in _IGNORED]
     linear, between = flat[::2], flat[1::2]
-    names = {_name(module) for module in between}
-    fits = len(linear) == len(between) + 1 and None not in names
+    found = [_name(module) for module in between]
+    names = {name for name in found if name is not None}
+    fits = len(linear) == len(between) + 1 and None not in found
     fits &= all(isinstance(layer, nn.Linear) and layer.bias is not None for layer in linear)
     if not fits:
         kinds = ", ".join(type(module).__name__ for module in flat)

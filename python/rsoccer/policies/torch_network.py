@@ -102,7 +102,7 @@ class TorchNetwork(nn.Module):
         """
         outputs = self.outputs(observations)
         if self.head == "categorical":
-            return distributions.Categorical(logits=outputs)  # type: ignore[no-untyped-call]
+            return distributions.Categorical(logits=outputs)
         if self._deviation is not None:
             means, raw = outputs.chunk(2, dim=-1)
             std = _std(self._deviation, raw)

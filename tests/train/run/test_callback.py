@@ -63,6 +63,6 @@ def test_other_callbacks_are_refused(tmp_path: Path) -> None:
 def test_evaluations_from_a_callback(tmp_path: Path) -> None:
     measured = MatchEvaluation(("ou", "zero"), matches=2, every=1, seconds=0.2)
     scores: list[dict[str, float]] = []
-    train(tiny(tmp_path), lambda u: scores.append(measured(u.network, u.samples)))  # type: ignore[func-returns-value]
+    train(tiny(tmp_path), lambda u: scores.append(measured(u.network, u.samples)))
     assert len(scores) == len(measured.results) > 1
     assert all({"evaluation/goal_score_ou", "evaluation/goal_score_zero"} == set(s) for s in scores)

@@ -92,8 +92,10 @@ def _actor(module: Any) -> Actor:  # noqa: ANN401
     encoder = getattr(module, "pi_encoder", None) or getattr(module, "encoder", None)
     for part in ("actor_encoder", "encoder"):
         encoder = getattr(encoder, part, None) or encoder
-    head = getattr(module, "pi", None)
-    parts = [getattr(getattr(part, "net", None), "mlp", None) for part in (encoder, head)]
+    head: Any = getattr(module, "pi", None)
+    parts: list[Any] = [
+        getattr(getattr(part, "net", None), "mlp", None) for part in (encoder, head)
+    ]
     if None in parts:
         raise ValueError(
             "module: expected an encoder and a policy head of linear layers, as PPO and SAC have "

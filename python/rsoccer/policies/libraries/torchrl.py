@@ -162,8 +162,9 @@ def _normalization(env: object) -> Normalization:
     """Normalization by the transforms `ObservationNorm` of an environment."""
     mean, std = np.float64(0.0), np.float64(1.0)
     for each in chain(env):
-        given = getattr(each, "transform", None)
-        for transform in given if hasattr(given, "__getitem__") else [given]:
+        given: Any = getattr(each, "transform", None)
+        transforms: list[Any] = list(given) if hasattr(given, "__getitem__") else [given]
+        for transform in transforms:
             name = type(transform).__name__
             if name.startswith("VecNorm"):
                 raise ValueError(
