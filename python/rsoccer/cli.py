@@ -17,6 +17,8 @@ EXTRAS = {
     "google": "network",
     "imageio_ffmpeg": "render",
     "matplotlib": "train",
+    "onnx": "onnx",
+    "onnxruntime": "onnx",
     "pygame": "render",
     "safetensors": "train",
     "tensorboard": "train",

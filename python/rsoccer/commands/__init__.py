@@ -12,6 +12,7 @@ from tyro.conf import subcommand
 from rsoccer.commands.convert import Convert
 from rsoccer.commands.distill import CommandDistillArgs, Distill
 from rsoccer.commands.evaluate import Evaluate
+from rsoccer.commands.export import Export
 from rsoccer.commands.identify import Identify
 from rsoccer.commands.imports import imported
 from rsoccer.commands.list import List
@@ -46,6 +47,7 @@ def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at
         | Annotated[Distill, subcommand("distill", default=distill_default)]
         | Annotated[Evaluate, subcommand("evaluate")]
         | Annotated[Tournament, subcommand("tournament")]
+        | Annotated[Export, subcommand("export")]
         | Annotated[Identify, subcommand("identify")]
         | Annotated[Watch, subcommand("watch")]
         | Annotated[Play, subcommand("play")]
