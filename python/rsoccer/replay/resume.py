@@ -10,6 +10,7 @@ from rsoccer import registry
 from rsoccer._core import Sensing, build_info
 from rsoccer.controllers import Controller, Controllers
 from rsoccer.matches import Matches
+from rsoccer.policies import is_module_text
 from rsoccer.policies.base import Policy
 from rsoccer.randomization import Ranges
 from rsoccer.replay.container import ReplayError
@@ -89,7 +90,11 @@ def _task(replay: Recorded) -> Task:
     """The task of a replay, made from its name and options."""
     if replay.options is None:
         raise ReplayError(f"task: expected {replay.task} as an argument: its options are not kept")
-    return registry.make_task(replay.task, **replay.options)
+    task = registry.make_task(replay.task, **replay.options)
+    defaults = task.default_controllers().values()
+    if code := [name for name in defaults if isinstance(name, str) and is_module_text(name)]:
+        raise ReplayError(f"task: expected {replay.task} as an argument: its policies are {code}")
+    return task
 
 
 def _sensing(replay: Recorded) -> Sensing | None:
@@ -107,6 +112,9 @@ def _named(controllers: Mapping[str, str | None]) -> dict[str, Controller]:
     unknown = [robot for robot, name in controllers.items() if name is None]
     if unknown:
         raise ReplayError(f"controllers: expected policies for {unknown}: they have no name")
+    code = {robot: name for robot, name in controllers.items() if name and is_module_text(name)}
+    if code:  # a file must not decide which module is imported
+        raise ReplayError(f"controllers: expected policies for {list(code)} as arguments: {code}")
     return {robot: LEARN if name == LEARNER else str(name) for robot, name in controllers.items()}
 
 
