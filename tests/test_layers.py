@@ -53,7 +53,7 @@ LAYERS = [
     {"envs.parallel", "envs.robots_vector", "envs.single", "evaluate", "recording"},
     {"envs.aec", "envs.vector"},
     {"__init__"},
-    {"identify", "sb3", "testing", "torchrl"},
+    {"benchmark", "identify", "sb3", "testing", "torchrl"},
     {"replay"},
     {"protocols.errors", "protocols.protobuf"},
     {"protocols.layout", "protocols.schemas"},

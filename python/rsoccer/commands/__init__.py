@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 from tyro.conf import subcommand
 
+from rsoccer.commands.benchmark import Benchmark
 from rsoccer.commands.convert import Convert
 from rsoccer.commands.distill import CommandDistillArgs, Distill
 from rsoccer.commands.evaluate import Evaluate
@@ -46,6 +47,7 @@ def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at
         | Annotated[Distill, subcommand("distill", default=distill_default)]
         | Annotated[Evaluate, subcommand("evaluate")]
         | Annotated[Tournament, subcommand("tournament")]
+        | Annotated[Benchmark, subcommand("benchmark")]
         | Annotated[Identify, subcommand("identify")]
         | Annotated[Watch, subcommand("watch")]
         | Annotated[Play, subcommand("play")]

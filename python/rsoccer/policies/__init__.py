@@ -150,18 +150,25 @@ def trained_on(policy: PolicyLike) -> Task | None:
         task = make_task(policy.task_name, **options)
     except TypeError as error:
         raise ValueError(f"policy: trained on a task with other options: {error}") from error
+    _check_companions(task)
+    return task
+
+
+def _check_companions(task: Task) -> None:
+    """Refuse policies of a task of a policy file that are missing, or that are code."""
     for player in task.default_controllers().values():
-        if isinstance(player, str) and is_module_text(player):  # a file must not decide what runs
+        if not isinstance(player, str):
+            continue
+        if is_module_text(player):  # a file must not decide what runs
             raise ValueError(
                 f"policy: trained beside the code {player}; name a task for it to play"
             )
-        path = file_of(player) if isinstance(player, str) else None
+        path = file_of(player)
         if path is not None and not path.exists():
             raise ValueError(
                 f"policy: trained beside the policy {player}, which does not exist here; name a "
                 "task for it to play"
             )
-    return task
 
 
 def name_of(policy: PolicyLike) -> str:
