@@ -22,7 +22,7 @@ from rsoccer import policies
 from rsoccer.policies import trained
 from rsoccer.policies.policy_file import read_file
 from rsoccer.tasks import legacy_names
-from tools import referee_tables, senses_tables, soak_matches
+from tools import leaderboard, referee_tables, senses_tables, soak_matches
 from tools.library_speed import libraries
 from tools.paths import DOCS, ROOT
 from tools.protocols import codes, fields
@@ -36,6 +36,7 @@ WRITTEN = (
     DOCS / "getting-started.md",
     DOCS / "index.md",
     *learning.PAGES,
+    DOCS / "leaderboard.md",
     DOCS / "libraries.md",
     DOCS / "policies.md",
     DOCS / "protocols.md",
@@ -105,8 +106,9 @@ def policy_names() -> str:
     names = ", ".join(f"`{name}`" for name in policies.list_policies())
     skilled = " or ".join(f"`{name}:0.5`" for name in policies.list_policies_with_skill())
     return (
-        f"{names}, or the path of a policy file. A skill from 0 to 1 may follow, as in {skilled}. "
-        "`best` is the [trained policy](docs/policies.md#trained-policies) of the task. It and "
+        f"{names}, the path of a policy file, or `module:name` of code of your own. A skill "
+        f"from 0 to 1 may follow, as in {skilled}. `best` is the [trained policy]"
+        "(docs/policies.md#trained-policies) of the task. It and "
         "policy files sample actions as in training; `best:mean` plays the mean action."
     )
 
@@ -238,6 +240,11 @@ PARTS: dict[str, Callable[[], str]] = {
     "curve": curve_picture,
     "demo": demo,
     "instructions": instructions,
+    "leaderboard_paper": leaderboard.papers_algorithms,
+    "leaderboard_plain": leaderboard.plain,
+    "leaderboard_provenance": leaderboard.provenance,
+    "leaderboard_quoted": leaderboard.quoted,
+    "leaderboard_robust": leaderboard.robust,
     "libraries": libraries,
     "match": match_picture,
     "new_task": new_task,

@@ -23,6 +23,7 @@ TOP: Final = {
 
 FOLDERS: Final = {
     "README.md": "index.md",
+    "benchmarks": "leaderboard.md",
     "examples": "examples.md",
     "python/rsoccer": "api/index.md",
 }
