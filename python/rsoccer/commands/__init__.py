@@ -21,6 +21,7 @@ from rsoccer.commands.serve import Serve
 from rsoccer.commands.tournament import Tournament
 from rsoccer.commands.train import CommandArgs, Train
 from rsoccer.commands.watch import Watch
+from rsoccer.commands.what_if import WhatIf
 from rsoccer.plugins import import_modules
 from rsoccer.train import Args
 from rsoccer.train.distillation import DistillArgs
@@ -50,6 +51,7 @@ def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at
         | Annotated[Benchmark, subcommand("benchmark")]
         | Annotated[Identify, subcommand("identify")]
         | Annotated[Watch, subcommand("watch")]
+        | Annotated[WhatIf, subcommand("what-if")]
         | Annotated[Play, subcommand("play")]
         | Annotated[Convert, subcommand("convert")]
         | Annotated[Serve, subcommand("serve")]
