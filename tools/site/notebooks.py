@@ -35,9 +35,9 @@ def index(names: list[str]) -> str:
     listed = "\n".join(names)
     return (
         "# Notebooks\n\n"
-        "Each page has a file to open in Jupyter or in a hosted notebook; the first cell installs the "
-        "package there. What the cells show was stored by `python -m tools.notebooks`, and tests run "
-        f"every cell.\n\n```{{toctree}}\n{listed}\n```\n"
+        "Each page has a file to open in Jupyter or in a hosted notebook; the first cell installs "
+        "the package there. What the cells show was stored by `python -m tools.notebooks`, and "
+        f"tests run every cell.\n\n```{{toctree}}\n{listed}\n```\n"
     )
 
 
@@ -55,8 +55,8 @@ def page(path: Path, pictures: Path) -> str:
             parts.append(source)
             continue
         parts.append(f"```python\n{source}\n```")
-        for output in cell["outputs"]:
-            parts.append(_output(output, pictures, f"{path.stem}-{number}.png"))
+        name = f"{path.stem}-{number}.png"
+        parts += (_output(output, pictures, name) for output in cell["outputs"])
         if len(parts) == 2:
             parts.append(f"Download {{download}}`{path.name}`.")
     return "\n\n".join(parts) + "\n"

@@ -17,6 +17,7 @@ from rsoccer.commands.identify import Identify
 from rsoccer.commands.imports import imported
 from rsoccer.commands.list import List
 from rsoccer.commands.play import Play
+from rsoccer.commands.record import Record
 from rsoccer.commands.serve import Serve
 from rsoccer.commands.tournament import Tournament
 from rsoccer.commands.train import CommandArgs, Train
@@ -49,6 +50,7 @@ def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at
         | Annotated[Evaluate, subcommand("evaluate")]
         | Annotated[Tournament, subcommand("tournament")]
         | Annotated[Benchmark, subcommand("benchmark")]
+        | Annotated[Record, subcommand("record")]
         | Annotated[Identify, subcommand("identify")]
         | Annotated[Watch, subcommand("watch")]
         | Annotated[WhatIf, subcommand("what-if")]
