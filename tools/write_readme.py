@@ -15,7 +15,7 @@ import gymnasium
 import pettingzoo
 
 import rsoccer
-from benches import scripted_ssl
+from benches import offline, scripted_ssl
 from benches.learning.reporting import report as learning
 from benches.markdown import filled, table
 from rsoccer import policies
@@ -38,6 +38,7 @@ WRITTEN = (
     *learning.PAGES,
     DOCS / "leaderboard.md",
     DOCS / "libraries.md",
+    DOCS / "offline.md",
     DOCS / "policies.md",
     DOCS / "protocols.md",
     DOCS / "referee.md",
@@ -248,6 +249,7 @@ PARTS: dict[str, Callable[[], str]] = {
     "libraries": libraries,
     "match": match_picture,
     "new_task": new_task,
+    "offline": offline.results,
     "old_names": old_names,
     "policies": policy_names,
     "referee_choices": referee_tables.choices,
