@@ -122,7 +122,7 @@ def _mean(entry: Entry, task: str) -> float:
 def provenance(found: list[Entry] | None = None) -> str:
     """Return the table of what the entries are, and where and when they were measured."""
     found = entries() if found is None else found
-    header = ("policy", "description", "date", "rsoccer, physics", "machine", "time")
+    header = ("policy", "description", "date", "rsoccer, physics", "machine", "wall clock")
     rows = [
         (
             f"[{_name(entry)}]({entry.link})" if entry.link else _name(entry),

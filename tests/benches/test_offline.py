@@ -1,4 +1,4 @@
-"""The baseline of offline learning; its algorithms need d3rlpy, which is not installed for tests."""
+"""The baseline of offline learning; its algorithms need d3rlpy, which tests do without."""
 
 import json
 from pathlib import Path

@@ -19,7 +19,7 @@ def test_every_file_is_a_valid_entry(path: Path) -> None:
 
 def test_there_are_entries_of_different_names() -> None:
     names = [entry.name for entry in leaderboard.entries()]
-    assert len(names) > 2
+    assert len(names) >= 2
     assert len(set(names)) == len(names)
     assert leaderboard.main() == 0
 

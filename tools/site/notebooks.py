@@ -63,7 +63,7 @@ def page(path: Path, pictures: Path) -> str:
 
 
 def _output(output: Mapping[str, Any], folder: Path, name: str) -> str:
-    """What a cell has shown, in the richest form that is stored."""
+    """Richest stored form of what a cell has shown."""
     if output["output_type"] == "stream":
         return f"```text\n{output['text'].rstrip()}\n```"
     data = output["data"]

@@ -63,7 +63,7 @@ class Entry:
     digest: str
     """SHA-256 of the policy file; empty for policies of the package and for code"""
     description: str
-    """how the policy was made, in a sentence"""
+    """origin of the policy, in a sentence"""
     link: str
     """address of code or paper; empty for none"""
     date: str

@@ -108,7 +108,7 @@ def _continued(begun: Entry, new: Entry) -> Entry:
 
 
 def _reason_against(policy: PolicyLike, task: str) -> str | None:
-    """Why a policy cannot play a task; None if it can."""
+    """Reason for which a policy cannot play a task; None if it can."""
     try:
         make_policy(policy, task)
     except ValueError as error:

@@ -34,7 +34,7 @@ class Benchmark(Imports):
     name: Annotated[str | None, arg(metavar="TEXT", help_behavior_hint="(default: POLICY)")] = None
     """name in the table"""
     description: str = ""
-    """how the policy was made, in a sentence"""
+    """origin of the policy, in a sentence"""
     link: str = ""
     """address of its code or paper"""
     matches: int = MATCHES
