@@ -1,4 +1,4 @@
-"""Offline learning from a data set of mixed skills: behavior cloning, CQL and IQL of d3rlpy.
+"""Offline learning from a data set of mixed skills: behavior cloning and IQL of d3rlpy.
 
 `python -m benches.offline` records the data set, learns from it with each algorithm, and stores the
 scores of learned policies and of those in the data set in `benches/results/offline.json`. It needs
@@ -47,7 +47,6 @@ UNITS: Final = (128, 128)
 """Hidden layers of all networks."""
 ALGORITHMS: Final = {
     "BC": "BCConfig",
-    "CQL": "CQLConfig",
     "IQL": "IQLConfig",
 }
 """Names in the table, and classes in `d3rlpy.algos`."""

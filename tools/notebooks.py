@@ -13,7 +13,6 @@ import copy
 import io
 import json
 import os
-import sys
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
@@ -142,4 +141,4 @@ def _representations(shown: object) -> dict[str, str]:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()
