@@ -54,7 +54,7 @@ LAYERS = [
     {"envs.parallel", "envs.robots_vector", "envs.single", "evaluate", "recording"},
     {"envs.aec", "envs.vector"},
     {"__init__"},
-    {"identify", "testing", "torchrl"},
+    {"benchmark", "datasets", "identify", "testing", "torchrl"},
     {"replay"},
     {"match_evaluation"},
     {"sb3"},
@@ -144,7 +144,7 @@ def test_modules_import_only_from_earlier_layers() -> None:
 
 def test_importing_the_package_loads_no_heavy_library() -> None:
     heavy = ["torch", "pygame", "PIL", "matplotlib", "safetensors", "tyro", "tqdm"]
-    heavy += ["stable_baselines3", "torchrl", "ray", "onnx", "onnxruntime"]
+    heavy += ["stable_baselines3", "torchrl", "ray", "onnx", "onnxruntime", "minari"]
     program = f"import sys, rsoccer; sys.exit(str([m for m in {heavy} if m in sys.modules] or ''))"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert done.stderr.strip() == ""

@@ -168,6 +168,16 @@ GROUPS: Final = (
             "rsoccer.evaluate.standings",
             "rsoccer.evaluate.ratings",
             "rsoccer.match_evaluation",
+            "rsoccer.benchmark",
+            "rsoccer.benchmark.protocol",
+            "rsoccer.benchmark.conditions",
+            "rsoccer.benchmark.measuring",
+            "rsoccer.benchmark.entry",
+            "rsoccer.benchmark.validation",
+            "rsoccer.benchmark.table",
+            "rsoccer.datasets",
+            "rsoccer.datasets.episodes",
+            "rsoccer.datasets.minari_dataset",
         ),
     ),
     Group(
@@ -217,6 +227,7 @@ GROUPS: Final = (
             "rsoccer.replay.sensed_poses",
             "rsoccer.replay.replay",
             "rsoccer.replay.recorder",
+            "rsoccer.replay.what_if",
             "rsoccer.replay.evaluation",
             "rsoccer.replay.film",
             "rsoccer.replay.events",
@@ -287,6 +298,7 @@ Sphinx does without these libraries.
 
 PRIVATE: Final = (
     "rsoccer.__main__",
+    "rsoccer.benchmark.machine",
     "rsoccer.bridge.*",
     "rsoccer.checks",
     "rsoccer.cli",
