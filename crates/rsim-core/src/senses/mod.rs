@@ -14,6 +14,7 @@ mod row;
 mod track;
 mod tracker;
 mod visibility;
+pub(crate) mod vision_tracker;
 
 use serde::{Deserialize, Serialize};
 
