@@ -68,6 +68,15 @@ class Peer(ABC):
             strangers: robots that vision shows and the match does not have; taken away.
         """
 
+    @abstractmethod
+    def ball_placement(self, layout: WireLayout, frame: Frame) -> list[Message]:
+        """Return the messages that put the ball alone.
+
+        Args:
+            layout: the match.
+            frame: frame of one world.
+        """
+
     def answer(self, layout: WireLayout, port: str, data: bytes) -> Answer | None:
         """Return what an answer tells; None for a port without answers.
 
@@ -108,6 +117,12 @@ class GrSim(Peer):
             )
         return [Message("grsim", packet.SerializeToString())]
 
+    def ball_placement(self, layout: WireLayout, frame: Frame) -> list[Message]:
+        """Return the messages that put the ball alone; see `Peer.ball_placement`."""
+        nobody = np.zeros(layout.config.n_robots, np.bool_)
+        packet = grsim.to_replacement(layout, frame, robots=nobody)
+        return [Message("grsim", packet.SerializeToString())]
+
 
 class SslSimulation(Peer):
     """The simulation protocol of the SSL."""
@@ -122,6 +137,12 @@ class SslSimulation(Peer):
     ) -> list[Message]:
         """Return the messages that put all bodies; see `Peer.placement`."""
         message = simulator_control.to_command(layout, frame, removed=strangers)
+        return [Message("control", message.SerializeToString())]
+
+    def ball_placement(self, layout: WireLayout, frame: Frame) -> list[Message]:
+        """Return the messages that put the ball alone; see `Peer.ball_placement`."""
+        message = simulator_control.to_command(layout, frame)
+        message.control.ClearField("teleport_robot")
         return [Message("control", message.SerializeToString())]
 
     def answer(self, layout: WireLayout, port: str, data: bytes) -> Answer | None:
@@ -152,6 +173,12 @@ class FiraSim(Peer):
         for team, number in strangers:
             robot = packet.replace.robots.add(yellowteam=team == YELLOW, turnon=False)
             robot.position.robot_id = number
+        return [Message("command", packet.SerializeToString())]
+
+    def ball_placement(self, layout: WireLayout, frame: Frame) -> list[Message]:
+        """Return the messages that put the ball alone; see `Peer.ball_placement`."""
+        packet = fira.to_replacement(layout, frame)
+        packet.replace.ClearField("robots")
         return [Message("command", packet.SerializeToString())]
 
 

@@ -23,6 +23,8 @@ from rsoccer.protocols.tracked import Tracked
 
 ABSENT_SECONDS: Final = 0.5
 """Time without a sight after which a robot counts as absent, s."""
+AROUND: Final = 3.0
+"""Distance from the lines up to which bodies are believed, m."""
 _ABSENT: Final = ROBOT_COLUMNS.index("absent")
 
 
@@ -105,6 +107,13 @@ class Sight(ABC):
         now = self.clock.now
         return {key for key, seen in self._seen.items() if now - seen <= ABSENT_SECONDS}
 
+    def _is_near(self, places: Floats) -> Mask:
+        """Places (k, 2) on the field or around it; others are mistakes of the sender."""
+        field = self.layout.config.field
+        limits = (field.length / 2 + AROUND, field.width / 2 + AROUND)
+        near: Mask = (np.abs(places) <= limits).all(axis=1)
+        return near
+
     def _time(self, stamp: float, sender: int = 0) -> tuple[float, bool] | None:
         """Time of a frame, and whether it has jumped; None for a frame that is of no use."""
         if stamp != self._stamp or sender in self._senders:
@@ -148,7 +157,9 @@ class DetectionSight(Sight):
         robots = np.empty((len(with_heading), 5), np.float32)
         robots[:, 0] = np.array(seen.slots, np.float32)[with_heading]
         robots[:, 1:] = seen.robots[with_heading]
-        self._tracker.take(time, seen.balls[order, :2].astype(np.float32), robots)
+        balls = seen.balls[order, :2].astype(np.float32)
+        near = [self._is_near(places) for places in (balls, robots[:, 1:3])]
+        self._tracker.take(time, balls[near[0]], robots[near[1]])
         self.has_ball = self._tracker.has_ball
         groups = ((BLUE, detection.robots_blue), (YELLOW, detection.robots_yellow))
         self._note(
@@ -164,6 +175,7 @@ class DetectionSight(Sight):
     def turn(self, layout: WireLayout) -> None:
         """Go on with other sides; see `Sight.turn`."""
         self.layout, self._tracker = layout, VisionTracker(layout.config)
+        self.has_ball = False
 
 
 class _StateSight(Sight):
@@ -193,7 +205,7 @@ class _StateSight(Sight):
 
     def turn(self, layout: WireLayout) -> None:
         """Go on with other sides; see `Sight.turn`."""
-        self.layout = layout
+        self.layout, self.has_ball = layout, False
         self._frame = self._nothing()
 
 
