@@ -17,14 +17,26 @@ The package needs protobuf: `pip install 'rsoccer[network]'`.
 """
 
 from rsoccer.drive.settings import Limits, Settings
-from rsoccer.drive.simulator import NetworkSimulator, NetworkStepper, firasim, grsim, ssl_simulation
+from rsoccer.drive.simulator import (
+    Network,
+    NetworkSimulator,
+    NetworkStepper,
+    UntouchedNetwork,
+    firasim,
+    forecasting,
+    grsim,
+    ssl_simulation,
+)
 
 __all__ = [
     "Limits",
+    "Network",
     "NetworkSimulator",
     "NetworkStepper",
     "Settings",
+    "UntouchedNetwork",
     "firasim",
+    "forecasting",
     "grsim",
     "ssl_simulation",
 ]

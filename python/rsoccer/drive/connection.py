@@ -48,6 +48,7 @@ class Connection:
         sight: what is seen.
         officials: the referee.
         counts: numbers of datagrams by what became of them, such as "vision: unreadable".
+        on_event: called with words for what happens to vision, sides and referee.
         on_sent: called with time and commands (robots, command) when robots get others than before.
         frame: frame of one world that limits near the ball go by; the owner keeps it current.
     """
@@ -87,11 +88,13 @@ class Connection:
         self.sight = make_sight(self.layout, settings.league, settings.source)
         self.officials = Officials(settings, rules, clock)
         self.counts: Counter[str] = Counter()
+        self.on_event: list[Callable[[str], None]] = []
         self.on_sent: list[Callable[[float, Floats], None]] = []
         self.frame = Frame.empty(1, config.n_blue, config.n_yellow)
         shape = (config.n_robots, len(config.command_columns))
         self._stopped: Floats = np.zeros(shape, np.float32)
         self._sent: Floats | None = None
+        self._is_closed = False
         self._contact: Mask = np.zeros(config.n_robots, np.bool_)
         self._contact_at: Doubles = np.full(config.n_robots, -np.inf)
         self._problem = ""
@@ -202,11 +205,16 @@ class Connection:
         """Forget all estimates, as bodies have been put somewhere."""
         self.sight.turn(self.layout)
 
+    def stop(self) -> None:
+        """Tell the robots to stand; the guard tells them again while nothing else is sent."""
+        for _ in range(END_MESSAGES):
+            self._send(self._stopped)
+
     def close(self) -> None:
         """Stop the robots and close the connection; a second call does nothing."""
-        if self._sent is None:
+        if self._is_closed:
             return
-        self._sent = None
+        self._is_closed = True
         for _ in range(END_MESSAGES):
             self._link.send(self._messages(self._stopped))
         if self._guard is not None:
@@ -233,11 +241,14 @@ class Connection:
             came = self.sight.frames - frames
             if is_newer and (is_done() or (lost and self.sight.clock.now > before)):
                 self._answer(commands, came - 1)
+                if lost:
+                    self._tell(f"{settings.source}: back")
                 return
             is_urgent = self.officials.is_halted != was_halted
             if not lost and self._silence > settings.seconds_to_stop:
                 lost, commands, is_urgent = True, self._stopped, True
-                self.counts["vision: lost"] += 1
+                self.counts[f"{settings.source}: lost"] += 1
+                self._tell(f"{settings.source}: lost, robots stop")
             is_due = self._clock() >= self._sent_at + period
             if came:
                 self._answer(commands, came)
@@ -292,7 +303,7 @@ class Connection:
                     if self.sight.frames > before:
                         self._seen_at = self._clock()
                 elif port == "referee":
-                    self.officials.receive(self.layout, data)
+                    self._take_referee(data)
                 else:
                     self._take_answer(port, data)
             except MessageError as error:
@@ -311,6 +322,18 @@ class Connection:
         self.layout = replace(self.layout, blue_on_positive_half=told)
         self.sight.turn(self.layout)
         self.counts["sides changed"] += 1
+        self._tell(f"referee: blue's goal is at {'+x' if told else '-x'}")
+
+    def _take_referee(self, data: bytes) -> None:
+        state = self.officials.reported.state
+        before = state.command
+        self.officials.receive(self.layout, data)
+        if state.command is not before and state.command is not None:
+            self._tell(f"referee: {state.command.name}")
+
+    def _tell(self, text: str) -> None:
+        for listener in self.on_event:
+            listener(text)
 
     def _take_answer(self, port: str, data: bytes) -> None:
         answer = self._peer.answer(self.layout, port, data)

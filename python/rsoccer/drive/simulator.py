@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import Final
+from collections.abc import Sequence
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -78,13 +78,14 @@ class NetworkStepper:
         connection: the connection.
     """
 
-    def __init__(self, connection: Connection) -> None:
+    def __init__(self, connection: Connection, *, is_owner: bool = True) -> None:
         """Step a connection.
 
         Args:
-            connection: the connection; `close` closes it.
+            connection: the connection.
+            is_owner: whether `close` closes it; else it stops the robots.
         """
-        self.connection = connection
+        self.connection, self._is_owner = connection, is_owner
         config, gap = connection.config, connection.settings.contact_gap
         self._poses = _Poses(connection)
         self._completed = CompletedStepper(self._poses, config, velocities=False, gap=gap)
@@ -151,8 +152,11 @@ class NetworkStepper:
         forecaster.forecast(self._rows.rows, seen, np.array([self.connection.now]), out)
 
     def close(self) -> None:
-        """Stop the robots and close the connection."""
-        self.connection.close()
+        """Stop the robots, and close a connection of its own."""
+        if self._is_owner:
+            self.connection.close()
+        else:
+            self.connection.stop()
 
     def _finish(self, out: Floats) -> None:
         """Write rows with break beams as robots report them."""
@@ -276,68 +280,80 @@ def _check_parameters(parameters: Floats | None) -> None:
         )
 
 
-def connect(
-    settings: Settings,
-    kind: type[NetworkStepper] = NetworkSimulator,
-    drives: Sequence[int] = (BLUE, YELLOW),
-) -> Callable[[SimConfig, int, Threads], NetworkStepper]:
-    """Return the factory of a simulator on a network, for `simulator=` of every interface.
+class Network:
+    """A place on the network that `simulator=` of every interface takes.
 
-    Args:
-        settings: the settings.
-        kind: what happens when bodies are to be put: `NetworkSimulator` puts them,
-            `UntouchedNetwork` leaves them, and with `NetworkStepper` episodes begin as it is.
-        drives: teams to drive, in the package.
+    Matches that come one after the other share the connection: between them the robots stand. It
+    ends with `close`, or with the process.
+
+    Example:
+        >>> from rsoccer.drive import Limits, Network, Settings
+        >>> network = Network(Settings("grsim", limits=Limits(speed=1.0)))
+        >>> # rsoccer.evaluate("best", simulator=network, worlds=1)
     """
 
-    def make(config: SimConfig, worlds: int, threads: Threads) -> NetworkStepper:
-        """Return the simulator of a match; see `rsoccer.sources.SimulatorFactory`."""
+    def __init__(
+        self,
+        settings: Settings,
+        kind: type[NetworkStepper] = NetworkSimulator,
+        drives: Sequence[int] = (BLUE, YELLOW),
+    ) -> None:
+        """Name a place; the first matches open the connection.
+
+        Args:
+            settings: the settings.
+            kind: what happens when bodies are to be put: `NetworkSimulator` puts them,
+                `UntouchedNetwork` leaves them, and with `NetworkStepper` episodes begin as it is.
+            drives: teams to drive, in the package.
+        """
+        self.settings, self.kind, self.drives = settings, kind, tuple(drives)
+        self._connection: Connection | None = None
+
+    def __call__(self, config: SimConfig, worlds: int, threads: Threads) -> NetworkStepper:
+        """Return the simulator of a match; see `rsoccer.sources.SimulatorFactory`.
+
+        Args:
+            config: field, ball and robots.
+            worlds: 1.
+            threads: not used.
+
+        Raises:
+            OSError: a port is taken, or an address is not one of this machine.
+            ValueError: another number of worlds, or robots that the peer cannot have.
+        """
         if worlds != 1:
-            raise ValueError(f"worlds: expected 1 on a network, got {worlds}")
-        return kind(Connection(config, settings, drives=drives))
+            raise ValueError(f"worlds: expected 1 with a simulator on a network, got {worlds}")
+        if self._connection is not None and self._connection.config != config:
+            self.close()
+        if self._connection is None:
+            self._connection = Connection(config, self.settings, drives=self.drives)
+        self._connection.on_sent.clear()
+        return self.kind(self._connection, is_owner=False)
 
-    return make
+    def close(self) -> None:
+        """Close the connection; a second call does nothing."""
+        if self._connection is not None:
+            self._connection.close()
+        self._connection = None
 
+    def __getstate__(self) -> tuple[object, ...]:
+        """Return what a copy in another process needs: it opens a connection of its own."""
+        return self.settings, self.kind, self.drives
 
-def grsim(config: SimConfig, worlds: int, threads: Threads) -> NetworkStepper:
-    """Return grSim on this machine at its usual ports, for `simulator="grsim"`.
+    def __setstate__(self, state: tuple[Any, ...]) -> None:
+        """Take over settings.
 
-    Args:
-        config: field, ball and robots.
-        worlds: 1.
-        threads: not used.
-
-    Raises:
-        ValueError: another number of worlds.
-    """
-    return connect(Settings("grsim"))(config, worlds, threads)
-
-
-def firasim(config: SimConfig, worlds: int, threads: Threads) -> NetworkStepper:
-    """Return FIRASim on this machine at its usual ports, for `simulator="firasim"`.
-
-    Args:
-        config: field, ball and robots.
-        worlds: 1.
-        threads: not used.
-
-    Raises:
-        ValueError: another number of worlds.
-    """
-    return connect(Settings("firasim"))(config, worlds, threads)
+        Args:
+            state: what `__getstate__` returned.
+        """
+        self.settings, self.kind, self.drives = state
+        self._connection = None
 
 
-def ssl_simulation(config: SimConfig, worlds: int, threads: Threads) -> NetworkStepper:
-    """Return a simulator on this machine that speaks the simulation protocol of the SSL.
-
-    Its vision is heard at the port of SSL-Vision, 10006. For `simulator="ssl-simulation"`.
-
-    Args:
-        config: field, ball and robots.
-        worlds: 1.
-        threads: not used.
-
-    Raises:
-        ValueError: another number of worlds.
-    """
-    return connect(Settings("ssl-simulation"))(config, worlds, threads)
+grsim: Final = Network(Settings("grsim"))
+"""grSim on this machine at its usual ports: `simulator="grsim"`."""
+firasim: Final = Network(Settings("firasim"))
+"""FIRASim on this machine at its usual ports: `simulator="firasim"`."""
+ssl_simulation: Final = Network(Settings("ssl-simulation"))
+"""A simulator on this machine that speaks the simulation protocol of the SSL, with vision at the
+port of SSL-Vision, 10006: `simulator="ssl-simulation"`."""
