@@ -8,6 +8,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
+from rsoccer._core import SimConfig
 from rsoccer.arrays import Floats, Mask
 from rsoccer.drive.settings import Settings
 from rsoccer.frame import Frame
@@ -196,7 +197,7 @@ def make_peer(settings: Settings) -> Peer:
     return kinds[settings.peer]()
 
 
-def make_layout(settings: Settings, config: object, *, positive: bool) -> WireLayout:
+def make_layout(settings: Settings, config: SimConfig, *, positive: bool) -> WireLayout:
     """Return sides and numbers on the wire.
 
     Args:
@@ -205,12 +206,17 @@ def make_layout(settings: Settings, config: object, *, positive: bool) -> WireLa
         positive: whether the goal of the robots that are blue on the wire is at +x.
 
     Raises:
-        ValueError: uniform numbers that the match cannot have.
+        ValueError: uniform numbers that the match cannot have, or robots of another league.
     """
     names = {"blue_ids": "ids", "yellow_ids": "opponent_ids"}
+    on_two_wheels = settings.league == "vsss"
+    for model in config.robots:
+        if (model.drive == "differential") != on_two_wheels:
+            wanted = "on two wheels" if on_two_wheels else "of the SSL"
+            raise ValueError(f"peer: expected robots {wanted} with {settings.peer}, got {model!r}")
     try:
         return WireLayout(
-            config,  # type: ignore[arg-type]  # checked by the caller
+            config,
             blue_ids=settings.ids,
             yellow_ids=settings.opponent_ids,
             blue_on_positive_half=positive,
