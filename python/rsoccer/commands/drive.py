@@ -8,7 +8,7 @@ import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import FrameType
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Final, Literal
 
 from tyro.conf import Positional, arg
 
@@ -25,8 +25,10 @@ if TYPE_CHECKING:
     from rsoccer.drive.session import Session
     from rsoccer.drive.settings import Settings
 
-_IDS = arg(metavar="INT", help_behavior_hint="(default: 0, 1, ...)")
+_IDS = arg(metavar="[INT [INT ...]]", help_behavior_hint="(default: 0, 1, ...)")
 _LIMIT = arg(help_behavior_hint="(default: none)")
+TOLD_STEPS: Final = 20
+"""Control steps of an episode from which its end is told."""
 _USUAL = "(default: those of the protocol)"
 
 
@@ -89,6 +91,8 @@ class Drive(Imports):
     """time without what is needed to go on until the command gives up, seconds"""
     seconds: Annotated[float, arg(help_behavior_hint="(default: until Ctrl-C)")] = math.inf
     """longest duration, by the clock of the frames"""
+    episodes: Annotated[int | None, arg(metavar="INT", help_behavior_hint="(default: any)")] = None
+    """number of the task's episodes after which to stop, such as 1 to reach the ball once"""
     seed: int = 0
     """random seed of the policy"""
 
@@ -101,6 +105,8 @@ class Drive(Imports):
             ValueError: an option is refused.
         """
         checks.number_in_range("seconds", self.seconds, 0.0, math.inf)
+        if self.episodes is not None:
+            checks.integer("episodes", self.episodes, 1)
         checks.number_in_range("delay", self.delay, 0.0, 1.0)
         policy, task = policy_and_task(self.subject, self.policy, self.task, self.task_options)
         settings = self.settings()
@@ -161,14 +167,18 @@ class Drive(Imports):
             _report(session.connection)
 
     def _steps(self, session: Session) -> None:
-        clock, told = session.connection.sight.clock, 0
+        clock = session.connection.sight.clock
         end = clock.now + self.seconds
-        while clock.now < end:
-            session.step()
-            for metrics in session.episodes[told:]:
-                numbers = ", ".join(f"{name} {value:.3g}" for name, value in metrics.items())
-                write(f"{clock.now:.1f} s: episode ended, {numbers}")
-            told = len(session.episodes)
+        most = math.inf if self.episodes is None else self.episodes
+        while clock.now < end and len(session.episodes) < most:
+            begun = session.matches.play.steps[0]
+            outcome = session.step()
+            # Where bodies stay, an episode may end again and again, as soon as it has begun.
+            if outcome.episodes is not None and (begun >= TOLD_STEPS or len(session.episodes) == 1):
+                metrics = session.episodes[-1].items()
+                numbers = ", ".join(f"{name} {value:.3g}" for name, value in metrics)
+                write(f"{clock.now:.1f} s: an episode ended, {numbers}")
+        write(f"{len(session.episodes)} episodes of {session.matches.task.name}")
 
     def _check(self, task: Task, settings: Settings) -> None:
         from rsoccer.drive.check import check_robot, describe
