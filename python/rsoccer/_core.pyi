@@ -2066,9 +2066,7 @@ class VisionTracker:
     def robots_in_sight(self) -> list[int]:
         """Indices of the robots that were seen in the last half second."""
 
-    def take(
-        self, time: float, balls: NDArray[np.float32], robots: NDArray[np.float32]
-    ) -> bool:
+    def take(self, time: float, balls: NDArray[np.float32], robots: NDArray[np.float32]) -> bool:
         """Take in the detections of a camera.
 
         Cameras with the same time are of one instant.

@@ -33,8 +33,8 @@ NETWORK_SIMULATORS: Final = {
 }
 """Names of simulators on the network of this machine, which step one match at a time."""
 SimulatorSource: TypeAlias = SimulatorFactory | Stepper | str
-"""A factory, its "module:name" or a name of `NETWORK_SIMULATORS`, or a simulator of one's own, which serves one object only: an
-environment with it cannot be copied."""
+"""A factory, its "module:name", a name of `NETWORK_SIMULATORS`, or a simulator of one's own, which
+serves one object only: an environment with it cannot be copied."""
 SensingSource: TypeAlias = Sensing | SensorModel | str
 """A `Sensing`, the name of its preset or its .json file, a sensor model, or "module:name" of one of
 them or of a function without arguments that makes it."""

@@ -1,4 +1,7 @@
-"""A process that drives FIRASim's robots and then fails: `python -m tests.drive.driver HOW PORTS`."""
+"""A process that drives robots of FIRASim and then fails.
+
+`python -m tests.drive.driver HOW COMMAND_PORT VISION_PORT`.
+"""
 
 from __future__ import annotations
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 import pytest
 
 from rsoccer import Sensing, SimConfig
 from rsoccer.drive.check import Movement, check_robot, describe
 from rsoccer.drive.connection import Connection
+from rsoccer.drive.peers import Message
+from rsoccer.protocols.schemas import simulation_pb2
 from tests.drive.wires import ServerLink, connected
 
 SSL = SimConfig("ssl_b", 1, 0)
@@ -40,10 +44,7 @@ def test_a_side_that_is_wrong_shows_in_the_places() -> None:
 class Reversed(ServerLink):
     """Robots whose software has a sign wrong."""
 
-    def send(self, messages):  # type: ignore[no-untyped-def]
-        from rsoccer.drive.peers import Message
-        from rsoccer.protocols.schemas import simulation_pb2
-
+    def send(self, messages: Iterable[Message]) -> None:
         turned = []
         for message in messages:
             control = simulation_pb2.RobotControl.FromString(message.data)
@@ -94,7 +95,9 @@ def test_verdicts(
 def test_a_robot_needs_space_and_must_be_driven() -> None:
     link = ServerLink(league="vsss", referee="off")
     connection: Connection = connected(SimConfig("vss_3v3", 3, 3), link, "firasim")
-    with pytest.raises(ValueError, match=r"check: expected 0\.40 m of free field .*, got 0\.\d\d m"):
+    with pytest.raises(
+        ValueError, match=r"check: expected 0\.40 m of free field .*, got 0\.\d\d m"
+    ):
         check_robot(connection, 1)
     with pytest.raises(ValueError, match=r"check: expected one of \[0, 1, 2\], got 3"):
         check_robot(connection, 3)

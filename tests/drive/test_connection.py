@@ -7,6 +7,7 @@ import pytest
 
 from rsoccer import SimConfig
 from rsoccer.drive.connection import Connection
+from rsoccer.drive.link import Received
 from rsoccer.drive.peers import Message
 from rsoccer.drive.settings import Limits, Settings
 from rsoccer.game import Command, Stage
@@ -73,12 +74,14 @@ def test_robots_stop_without_vision_and_go_on_with_new_commands_alone() -> None:
     heard, link.heard = link.heard, set()
     sent = len(link.messages)
 
-    def poll(seconds: float, poll=link.poll) -> list:  # type: ignore[no-untyped-def,type-arg]
+    real_poll, lost = link.poll, link.now
+
+    def poll(seconds: float) -> list[Received]:
         if link.now > lost + 2.0:
             link.heard = heard
-        return poll(seconds)  # type: ignore[no-any-return]
+        return real_poll(seconds)
 
-    lost, link.poll = link.now, poll  # type: ignore[method-assign]
+    link.poll = poll  # type: ignore[method-assign]
     advance(connection, 0.025)
     found = speeds(link.messages[sent:])
     stopped = found.index(0.0)
@@ -114,7 +117,7 @@ def test_what_is_missing_is_named() -> None:
     link.heard = set()
     connection = connected(ONE, link, "ssl-simulation", patience=1.0)
     link.heard = set()
-    with pytest.raises(ConnectionError, match="no frames at 224.5.23.2:10006, nothing"):
+    with pytest.raises(ConnectionError, match=r"no frames at 224\.5\.23\.2:10006, nothing"):
         connection.begin()
 
 
@@ -143,7 +146,9 @@ def test_a_team_that_another_client_drives_is_refused_in_the_end() -> None:
     data = message.SerializeToString()
     link.server.receive("blue", data, OTHER, link.now)
     connection = connected(CONFIG, link, "ssl-simulation")
-    with pytest.raises(RuntimeError, match="blue: TEAM_TAKEN: team: blue is driven by 127.0.0.1:5109"):
+    with pytest.raises(
+        RuntimeError, match=r"blue: TEAM_TAKEN: team: blue is driven by 127\.0\.0\.1:5109"
+    ):
         for _ in range(400):
             link.server.receive("blue", data, OTHER, link.now)
             advance(connection, 0.025)
@@ -250,7 +255,7 @@ def test_vision_whose_clock_jumps_is_followed() -> None:
     connection.begin()
     for shift in (1e4, -2e4):
         link.server.session.epoch += shift
-        link.server.ports._vision._epoch += shift  # type: ignore[union-attr]  # noqa: SLF001
+        link.server.ports._vision._epoch += shift  # type: ignore[union-attr]
         start, time = link.frame.robots.position[0, 0, 0], link.now
         advance(connection, 0.3)
         advance(connection, 0.3)

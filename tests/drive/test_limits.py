@@ -15,7 +15,9 @@ VSS = RobotModel("vss_440rpm")
 WIDE = Limits(100.0, 100.0, 100.0)
 
 
-def command(model: RobotModel, forward: float, left: float, turn: float, *kick: float) -> np.ndarray:
+def command(
+    model: RobotModel, forward: float, left: float, turn: float, *kick: float
+) -> np.ndarray:
     row = np.zeros(len(model.command_columns), np.float32)
     made = CommandRow(model, row)
     made.drive(forward, left, turn)

@@ -2,64 +2,83 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from rsoccer.drive.session import Session
 from rsoccer.drive.settings import Settings
-from rsoccer.game import Command
+from rsoccer.game import Command, Stage
+from rsoccer.protocols import referee
+from rsoccer.protocols.layout import WireLayout
+from rsoccer.protocols.referee import RefereeStatus, TeamStatus
 from rsoccer.registry import make_task
 from tests.drive.wires import ServerLink
 
 SMALL = {"n_blue": 2, "n_yellow": 2}
 
 
-def session_of(link: ServerLink, task: str, peer: str, policy: str = "strike", **options: object) -> Session:
+def session_of(
+    link: ServerLink, task: str, peer: str, policy: str = "strike", **options: object
+) -> Session:
     settings = Settings(peer, **options)  # type: ignore[arg-type]
     link.heard = set(settings.heard)
     numbers = SMALL if task == "SSLMatch-v0" else {}
     return Session(policy, make_task(task, **numbers), settings, link=link, clock=link.clock)
 
 
+def told(session: Session, command: Command, score: tuple[int, int] = (3, 1)) -> bytes:
+    """Return a packet of a game controller."""
+    teams = TeamStatus("Blue", score[0]), TeamStatus("Yellow", score[1])
+    status = RefereeStatus(command, Stage.NORMAL_FIRST_HALF, teams)
+    layout = WireLayout(session.connection.config)
+    packet = referee.to_packet(layout, status, referee.Stamper().stamp(command, 1.0))
+    data: bytes = packet.SerializeToString()
+    return data
+
+
 @pytest.mark.parametrize("team", ["blue", "yellow"])
-def test_a_match_policy_plays_under_the_referee_of_the_peer(team: str) -> None:
-    link, told = ServerLink(robots=2), []
+def test_a_policy_of_matches_plays_by_the_commands_of_a_game_controller(team: str) -> None:
+    link = ServerLink(robots=2, referee="off")
     session = session_of(link, "SSLMatch-v0", "ssl-simulation", team=team)
-    session.connection.on_event.append(told.append)
+    game, own = session.matches.play.game, slice(0, 2) if team == "blue" else slice(2, 4)
+    robots = link.frame.robots
+
+    def play(command: Command, steps: int) -> None:
+        link.give("referee", told(session, command))
+        for _ in range(steps):
+            session.step()
+
     session.begin()
-    arena = link.server.session.arena
-    swap = {"blue": lambda score: score, "yellow": lambda score: score[::-1]}[team]
-    assert link.server.session.arena.play.game.score.sum() == 0
-    # Yellow's goals come from the peer: the ball is put into a goal of a side that is driven.
-    for _ in range(400):
-        session.step()
-        if arena.play.game.score.any():
-            break
-    for _ in range(10):
-        session.step()
-    score = arena.play.game.score[0].tolist()
-    assert sum(score) >= 1, "nobody else plays, so the policy scores"
-    assert session.matches.play.game.score[0].tolist() == swap(score)
-    assert score[0 if team == "blue" else 1] == 1
-    assert "referee: NORMAL_START" in told
-    command = Command(int(arena.play.game.command[0]))
-    seen = Command(int(session.matches.play.game.command[0]))
-    exchanged = {"BLUE": "YELLOW", "YELLOW": "BLUE"}
-    color = command.name.rpartition("_")[2]
-    expected = command.name.replace(color, exchanged[color]) if color in exchanged else command.name
-    assert seen.name == (command.name if team == "blue" else expected)
+    play(Command[f"PREPARE_KICKOFF_{team.upper()}"], 30)
+    assert game.command[0] == Command.PREPARE_KICKOFF_BLUE
+    assert game.score[0].tolist() == ([3, 1] if team == "blue" else [1, 3])
+    assert not game.may_touch[0].any()
+    assert not link.frame.ball.position[0].any(), "nobody touches the ball"
+    play(Command.NORMAL_START, 80)
+    assert game.may_touch[0, 0]
+    assert link.frame.ball.position[0].any(), "it takes its kick-off"
+    assert game.in_play[0]
+    play(Command.HALT, 30)
+    speeds = np.linalg.norm(link.frame.robots.velocity[0, own], axis=1)
+    assert speeds.max() < 0.01
+    assert robots.absent[0, own].tolist() == [0.0, 0.0]
     session.close()
 
 
-def test_a_goal_is_scored_in_vsss_with_one_team_driven() -> None:
+def test_robots_of_vsss_wait_for_the_start() -> None:
     link = ServerLink(league="vsss")
     session = session_of(link, "VSSSelfPlay-v0", "firasim", "best")
+    told_of: list[str] = []
+    session.connection.on_event.append(told_of.append)
     session.begin()
-    for _ in range(400):
+    start = link.frame.robots.position[0, :3].copy()
+    while "referee: NORMAL_START" not in told_of:
+        assert link.now < 110.0
+        np.testing.assert_allclose(link.frame.robots.position[0, :3], start, atol=1e-3)
         session.step()
-        if link.server.session.arena.play.game.score.any():
-            break
-    assert link.server.session.arena.play.game.score[0].tolist() == [1, 0]
-    assert session.episodes[0]["goal_score"] == 1.0
+    for _ in range(40):
+        session.step()
+    assert np.linalg.norm(link.frame.robots.position[0, :3] - start, axis=1).max() > 0.2
     session.close()
 
 

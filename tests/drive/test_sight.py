@@ -39,7 +39,12 @@ def read(sight: object, config: SimConfig) -> Frame:
 
 def packet(layout: WireLayout, frame: Frame, number: int, time: float, **others: object) -> bytes:
     message = vision.to_packet(
-        layout, frame, frame_number=number, t_capture=time, t_sent=time, **others  # type: ignore[arg-type]
+        layout,
+        frame,
+        frame_number=number,
+        t_capture=time,
+        t_sent=time,
+        **others,  # type: ignore[arg-type]
     )
     data: bytes = message.SerializeToString()
     return data

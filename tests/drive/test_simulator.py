@@ -103,7 +103,9 @@ def test_bodies_are_where_a_task_wants_them_and_others_are_gone() -> None:
     wanted, true = here.frame, link.frame
     np.testing.assert_allclose(true.robots.position[0, 0], wanted.robots.position[0, 0], atol=0.01)
     assert true.robots.absent[0].tolist() == [0.0] + [1.0] * 11
-    np.testing.assert_allclose(matches.frame.robots.position[0, 0], true.robots.position[0, 0], atol=0.01)
+    np.testing.assert_allclose(
+        matches.frame.robots.position[0, 0], true.robots.position[0, 0], atol=0.01
+    )
     assert matches.play.times is not None
 
 

@@ -13,7 +13,9 @@ def test_time_is_that_of_the_stamps_since_the_first() -> None:
     clock = VisionClock()
     found = [clock.at(UNIX + 0.016 * frame) for frame in range(5)]
     assert found[0] == (0.0, False)
-    assert [time for time, _ in found if found] == pytest.approx([0.016 * f for f in range(5)], abs=1e-6)
+    assert [time for time, _ in found if found] == pytest.approx(
+        [0.016 * f for f in range(5)], abs=1e-6
+    )
     assert clock.jumps == 0
 
 

@@ -7,7 +7,8 @@
 | `sight`, `vision_clock` | from frames of vision to states and their times |
 | `officials` | packets of a referee, and what robots may do under it |
 | `limits` | greatest speeds |
-| `link`, `guard`, `guard_process` | sockets, and the process that stops robots when this one fails |
+| `link` | sockets |
+| `guard`, `guard_process` | the process that stops robots when this one fails |
 | `connection` | all of them: commands out, states in |
 | `simulator` | a connection as the simulator of `Matches` |
 | `check`, `delay` | signs and sides with one robot, and the delay of the whole loop |

@@ -223,7 +223,8 @@ def describe(connection: Connection, found: CheckedRobot, slot: int) -> str:
     ]
     for movement in found.movements:
         asked, seen = (
-            "{:5.2f} m {:5.2f} m {:5.2f} rad".format(*values) for values in (movement.asked, movement.seen)
+            "{:5.2f} m {:5.2f} m {:5.2f} rad".format(*values)
+            for values in (movement.asked, movement.seen)
         )
         lines.append(f"{movement.name:<12}{asked:<28}{seen:<28}{movement.verdict}")
     if found.delay is None:
@@ -234,4 +235,3 @@ def describe(connection: Connection, found: CheckedRobot, slot: int) -> str:
     if not found.is_right:
         lines += ["", "do not let a policy drive before all movements are right"]
     return "\n".join(lines)
-

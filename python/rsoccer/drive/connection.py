@@ -278,9 +278,7 @@ class Connection:
             others = f"{unreadable} other datagrams ({self._problem})" if unreadable else "nothing"
             return f"no frames at {place}, {others}"
         missing = np.flatnonzero(self.driven & ~sight.in_sight).tolist()
-        teams = [
-            f"{name} {sight.numbers(team)}" for team, name in enumerate(TEAM_NAMES)
-        ]
+        teams = [f"{name} {sight.numbers(team)}" for team, name in enumerate(TEAM_NAMES)]
         lacks = [
             f"{TEAM_NAMES[team]} {number}" for team, number in map(self.layout.identity, missing)
         ]

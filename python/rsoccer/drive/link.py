@@ -8,7 +8,7 @@ import socket
 from collections.abc import Iterable
 from typing import Final, NamedTuple, Protocol
 
-from rsoccer.bridge.sockets import Network, group_receiver, receiver, sender
+from rsoccer.bridge.sockets import Network, group_receiver, sender
 from rsoccer.bridge.team import Address
 from rsoccer.drive.peers import Message
 from rsoccer.drive.settings import LISTENING, Settings

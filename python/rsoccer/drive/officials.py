@@ -22,8 +22,8 @@ from rsoccer.protocols.reported_referee import ReportedReferee
 from rsoccer.rules.referee_config import RefereeConfig
 
 SILENCE: Final = 5.0
-"""Time without a packet after which a referee that was heard is taken to have halted the match, s. The
-game controller sends at 40 Hz, VSSReferee repeats its command."""
+"""Time without a packet after which a referee that was heard is taken to have halted the match, s.
+The game controller sends at 40 Hz, VSSReferee repeats its command."""
 KEEP_AWAY: Final = 0.55
 """Distance of a robot's center from the ball when the other team has the kick or play is stopped,
 m: 0.5 m by the rules of the SSL, and the error of a tracker."""
@@ -113,8 +113,10 @@ class Officials:
         for team in (BLUE, YELLOW):
             if state.may_touch(team):
                 continue
-            slots = range(layout.config.n_blue) if team == BLUE else range(
-                layout.config.n_blue, layout.config.n_robots
+            slots = (
+                range(layout.config.n_blue)
+                if team == BLUE
+                else range(layout.config.n_blue, layout.config.n_robots)
             )
             for slot in slots:
                 model = layout.config.robots[slot]

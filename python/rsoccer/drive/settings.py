@@ -134,13 +134,7 @@ class Settings:
                 raise ValueError(f"{name}: expected one of {choices}, got {value!r}")
         if self.source != "vision" and self.league != "ssl":
             raise ValueError(f"source: expected 'vision' with firasim, got {self.source!r}")
-        for name, number in self.ports.items():
-            if name not in _PORTS[self.peer]:
-                raise ValueError(f"ports: expected names of {sorted(_PORTS[self.peer])}, got {name!r}")
-            checks.integer_in_range(f"ports: {name}", number, 1, 65535)
-        for name in self.groups:
-            if name not in LISTENING:
-                raise ValueError(f"groups: expected names of {list(LISTENING)}, got {name!r}")
+        self._check_places()
         for name, low, high in (
             ("patience", 0.01, 1e6),
             ("rate", 1.0, 1000.0),
@@ -154,6 +148,16 @@ class Settings:
             checks.boolean("blue_on_positive_half", self.blue_on_positive_half)
         checks.boolean("is_synchronous", self.is_synchronous)
         checks.boolean("guard", self.guard)
+
+    def _check_places(self) -> None:
+        known = sorted(_PORTS[self.peer])
+        for name, number in self.ports.items():
+            if name not in known:
+                raise ValueError(f"ports: expected names of {known}, got {name!r}")
+            checks.integer_in_range(f"ports: {name}", number, 1, 65535)
+        for name in self.groups:
+            if name not in LISTENING:
+                raise ValueError(f"groups: expected names of {list(LISTENING)}, got {name!r}")
 
     @property
     def league(self) -> str:

@@ -17,7 +17,9 @@ from rsoccer.protocols.schemas import referee_pb2, vssref_pb2
 from rsoccer.rules.referee_config import RefereeConfig
 
 _EXCHANGED: Final = {
-    command: Command[command.name.replace("BLUE", "X").replace("YELLOW", "BLUE").replace("X", "YELLOW")]
+    command: Command[
+        command.name.replace("BLUE", "X").replace("YELLOW", "BLUE").replace("X", "YELLOW")
+    ]
     for command in Command
 }
 """Commands with the colors exchanged."""
@@ -98,22 +100,11 @@ class ReportedReferee:
             game: state of a match with a referee, of one world.
             n_blue: number of blue robots in a state row.
         """
-        state, status = self.state, self.status
         if self.stage is not None:
             _set(game, "stage", self.stage)
-        if status is not None:
-            following = NOBODY if status.next_command is None else status.next_command
-            _set(game, "next_command", following)
-            for team in TEAMS:
-                reported = status.teams[team]
-                game.score[0, team] = reported.score
-                _set(game, f"score_{TEAM_NAMES[team]}", reported.score)
-                game.yellow_cards[0, team] = reported.yellow_cards
-                game.red_cards[0, team] = reported.red_cards
-            if status.seconds_left is not None:
-                game.seconds_left[0] = status.seconds_left
-            if status.designated_position is not None:
-                game.designated_position[0] = status.designated_position
+        if self.status is not None:
+            _write_status(game, self.status)
+        state = self.state
         if state.command is None:
             return
         _set(game, "command", state.command)
@@ -126,6 +117,22 @@ class ReportedReferee:
         for team in TEAMS:
             slots = slice(n_blue) if team == BLUE else slice(n_blue, None)
             game.may_touch[0, slots] = state.may_touch(team)
+
+
+def _write_status(game: Game, status: RefereeStatus) -> None:
+    """Write the state of a game controller into that of a match."""
+    following = NOBODY if status.next_command is None else status.next_command
+    _set(game, "next_command", following)
+    for team in TEAMS:
+        reported = status.teams[team]
+        game.score[0, team] = reported.score
+        _set(game, f"score_{TEAM_NAMES[team]}", reported.score)
+        game.yellow_cards[0, team] = reported.yellow_cards
+        game.red_cards[0, team] = reported.red_cards
+    if status.seconds_left is not None:
+        game.seconds_left[0] = status.seconds_left
+    if status.designated_position is not None:
+        game.designated_position[0] = status.designated_position
 
 
 def _set(game: Game, name: str, value: float) -> None:
