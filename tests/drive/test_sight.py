@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rsoccer import SimConfig
-from rsoccer.drive.sight import FiraSight, make_sight
+from rsoccer.drive.state_sight import FiraSight, make_sight
 from rsoccer.frame import Frame
 from rsoccer.game import BLUE, YELLOW
 from rsoccer.protocols import fira, tracker, vision

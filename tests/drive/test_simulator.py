@@ -9,8 +9,14 @@ import pytest
 
 from rsoccer import Matches, SimConfig
 from rsoccer._core import Threads
-from rsoccer.drive import Network, NetworkSimulator, NetworkStepper, Settings, UntouchedNetwork
-from rsoccer.drive.simulator import forecasting
+from rsoccer.drive import (
+    Network,
+    NetworkSimulator,
+    NetworkStepper,
+    Settings,
+    UntouchedNetwork,
+    forecasting,
+)
 from rsoccer.lineup import lineup
 from rsoccer.registry import make_task
 from rsoccer.simulator_interface import Stepper

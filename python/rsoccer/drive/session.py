@@ -12,9 +12,10 @@ from rsoccer.arrays import Floats
 from rsoccer.controllers import Controller
 from rsoccer.drive.connection import Connection
 from rsoccer.drive.link import Link
+from rsoccer.drive.network import forecasting
 from rsoccer.drive.officials import Officials
 from rsoccer.drive.settings import Settings
-from rsoccer.drive.simulator import UntouchedNetwork, forecasting
+from rsoccer.drive.simulator import UntouchedNetwork
 from rsoccer.lineup import lineup
 from rsoccer.matches import Matches, Outcome
 from rsoccer.play import Play
