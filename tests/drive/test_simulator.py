@@ -7,7 +7,7 @@ import pickle
 import numpy as np
 import pytest
 
-from rsoccer import Matches, SimConfig
+from rsoccer import Matches, Sensing, SimConfig, plugins
 from rsoccer._core import Threads
 from rsoccer.drive import (
     Network,
@@ -17,9 +17,12 @@ from rsoccer.drive import (
     UntouchedNetwork,
     forecasting,
 )
+from rsoccer.evaluate import evaluate
 from rsoccer.lineup import lineup
+from rsoccer.protocols.schemas import simulation_pb2
 from rsoccer.registry import make_task
 from rsoccer.simulator_interface import Stepper
+from rsoccer.sources import NETWORK_SIMULATORS
 from tests.drive.wires import ServerLink, connected
 
 GO_TO_BALL = "SSLGoToBall-v0"
@@ -79,8 +82,6 @@ def test_the_ball_is_reached(peer: str, settings: dict[str, object]) -> None:
 
 
 def test_the_ball_is_reached_through_noise_and_delay() -> None:
-    from rsoccer import Sensing
-
     link = ServerLink(referee="off", sensing=Sensing("rc2021"))
     found = played(matches_of(GO_TO_BALL, link, "ssl-simulation", delay=0.06), 110)
     assert [metrics["reached"] for metrics in found[:2]] == [1.0, 1.0]
@@ -162,3 +163,28 @@ def test_the_forecast_is_the_state_after_the_delay() -> None:
     stepper.sense(known, None, None)
     np.testing.assert_array_equal(known, out)
     assert forecasting(0.0) is None
+
+
+def test_a_policy_is_evaluated_there() -> None:
+    link, made = ServerLink(referee="off"), []
+
+    def simulator(config: SimConfig, worlds: int, threads: Threads) -> NetworkSimulator:
+        if not made:
+            made.append(connected(config, link, "ssl-simulation", drives=(0, 1)))
+        return NetworkSimulator(made[0], is_owner=False)
+
+    found = evaluate(
+        "best", matches=2, task=make_task(GO_TO_BALL), worlds=1, threads=1, simulator=simulator
+    )
+    assert found.score == 1.0
+    assert not link.is_closed
+    last = simulation_pb2.RobotControl.FromString(link.messages[-1].data)
+    assert not any(each.move_command.local_velocity.forward for each in last.robot_commands)
+
+
+@pytest.mark.parametrize("name", sorted(NETWORK_SIMULATORS))
+def test_peers_have_names(name: str) -> None:
+    found = plugins.find("simulator", NETWORK_SIMULATORS[name])
+    assert isinstance(found, Network)
+    assert found.settings == Settings(name)
+    assert isinstance(pickle.loads(pickle.dumps(found)), Network)
