@@ -29,7 +29,7 @@ def test_a_robot_that_obeys_is_right_and_its_delay_is_measured() -> None:
     assert "blue 5 is at (0.90, 1.50) m on the wire; its own goal is at +x there" in text
     assert text.count("right") >= 6
     assert f"use --delay {found.delay:g}" in text
-    # Only its team was told anything, and the robot is back and stands.
+    # Only its team was commanded, and the robot is back and stands.
     assert {message.port for message in link.messages} == {"blue"}
     assert not link.frame.robots.velocity[0, 5].round(2).any()
 

@@ -1,4 +1,4 @@
-"""Robots that stop when anything fails, and are told nothing that is not allowed."""
+"""Robots that stop when anything fails, and get no command that is not allowed."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def speeds(messages: list[Message]) -> list[float]:
     return found
 
 
-def told(command: Command, **numbers: object) -> bytes:
+def packet_of(command: Command, **numbers: object) -> bytes:
     """Return a packet of a game controller."""
     layout = WireLayout(CONFIG, **numbers)  # type: ignore[arg-type]
     status = RefereeStatus(command, Stage.NORMAL_FIRST_HALF)
@@ -173,13 +173,13 @@ def test_halt_stops_at_once_and_stop_is_slow() -> None:
     connection.begin()
     advance(connection, 0.1, fast)
     assert speeds(link.messages)[-1] == pytest.approx(3.0)
-    link.give("referee", told(Command.HALT))
+    link.give("referee", packet_of(Command.HALT))
     advance(connection, 0.1, fast)
     assert speeds(link.messages)[-1] == 0.0
-    link.give("referee", told(Command.STOP))
+    link.give("referee", packet_of(Command.STOP))
     advance(connection, 0.1, fast)
     assert 0.0 < speeds(link.messages)[-1] <= 1.5 + 1e-5
-    link.give("referee", told(Command.FORCE_START))
+    link.give("referee", packet_of(Command.FORCE_START))
     advance(connection, 0.1, fast)
     assert speeds(link.messages)[-1] == pytest.approx(3.0)
 
@@ -190,7 +190,7 @@ def test_a_required_referee_is_awaited() -> None:
     connection.begin()
     advance(connection, 0.2)
     assert set(speeds(link.messages)) == {0.0}
-    link.give("referee", told(Command.FORCE_START))
+    link.give("referee", packet_of(Command.FORCE_START))
     advance(connection, 0.2)
     assert speeds(link.messages)[-1] == pytest.approx(1.0)
 
@@ -198,7 +198,7 @@ def test_a_required_referee_is_awaited() -> None:
 def test_a_referee_that_falls_silent_has_halted_the_match() -> None:
     link = ServerLink(referee="off")
     connection = connected(CONFIG, link, "ssl-simulation")
-    link.give("referee", told(Command.FORCE_START))
+    link.give("referee", packet_of(Command.FORCE_START))
     connection.begin()
     advance(connection, 0.2)
     assert speeds(link.messages)[-1] == pytest.approx(1.0)
@@ -210,7 +210,7 @@ def test_a_referee_that_falls_silent_has_halted_the_match() -> None:
 def test_the_sides_follow_the_referee() -> None:
     link = ServerLink(referee="off", blue_on_positive_half=True)
     connection = connected(CONFIG, link, "ssl-simulation")
-    link.give("referee", told(Command.FORCE_START, blue_on_positive_half=True))
+    link.give("referee", packet_of(Command.FORCE_START, blue_on_positive_half=True))
     connection.begin()
     row = np.empty((1, CONFIG.row_size), np.float32)
     connection.sight.read(row)

@@ -21,7 +21,7 @@ CONFIG = SimConfig("vss_3v3", 3, 3)
 
 
 class FakeFiraSim:
-    """Vision of robots that never move, and what they are told."""
+    """Vision of robots that never move, and their commands."""
 
     def __init__(self) -> None:
         self.commands = receiver(LOOPBACK, 0)

@@ -41,7 +41,7 @@ def test_directions_are_kept() -> None:
 
 def test_robots_on_two_wheels_are_limited_by_their_speed_and_their_turn() -> None:
     row = command(VSS, -1.0, 0.0, 10.0)
-    found = motion(VSS, limited(VSS, row, Limits(speed=0.5, turn_rate=4.0)))
+    found = motion(VSS, limited(VSS, row, Limits(speed=0.5, angular_velocity=4.0)))
     assert found.velocity == pytest.approx((-0.5, 0.0, 4.0), abs=1e-5)
 
 
@@ -53,5 +53,5 @@ def test_no_kick_and_no_movement_at_limits_of_zero() -> None:
 
 @pytest.mark.parametrize("value", [-1.0, float("nan")])
 def test_limits_are_checked(value: float) -> None:
-    with pytest.raises(ValueError, match="limits: turn_rate: expected"):
-        Limits(turn_rate=value)
+    with pytest.raises(ValueError, match="limits: angular_velocity: expected"):
+        Limits(angular_velocity=value)

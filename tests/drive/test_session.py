@@ -26,7 +26,7 @@ def session_of(
     return Session(policy, make_task(task, **numbers), settings, link=link, clock=link.clock)
 
 
-def told(session: Session, command: Command, score: tuple[int, int] = (3, 1)) -> bytes:
+def packet_of(session: Session, command: Command, score: tuple[int, int] = (3, 1)) -> bytes:
     """Return a packet of a game controller."""
     teams = TeamStatus("Blue", score[0]), TeamStatus("Yellow", score[1])
     status = RefereeStatus(command, Stage.NORMAL_FIRST_HALF, teams)
@@ -44,7 +44,7 @@ def test_a_policy_of_matches_plays_by_the_commands_of_a_game_controller(team: st
     robots = link.frame.robots
 
     def play(command: Command, steps: int) -> None:
-        link.give("referee", told(session, command))
+        link.give("referee", packet_of(session, command))
         for _ in range(steps):
             session.step()
 
@@ -68,11 +68,11 @@ def test_a_policy_of_matches_plays_by_the_commands_of_a_game_controller(team: st
 def test_robots_of_vsss_wait_for_the_start() -> None:
     link = ServerLink(league="vsss")
     session = session_of(link, "VSSSelfPlay-v0", "firasim", "best")
-    told_of: list[str] = []
-    session.connection.on_event.append(told_of.append)
+    events: list[str] = []
+    session.connection.on_event.append(events.append)
     session.begin()
     start = link.frame.robots.position[0, :3].copy()
-    while "referee: NORMAL_START" not in told_of:
+    while "referee: NORMAL_START" not in events:
         assert link.now < 110.0
         np.testing.assert_allclose(link.frame.robots.position[0, :3], start, atol=1e-3)
         session.step()

@@ -27,8 +27,8 @@ if TYPE_CHECKING:
 
 _IDS = arg(metavar="[INT [INT ...]]", help_behavior_hint="(default: 0, 1, ...)")
 _LIMIT = arg(help_behavior_hint="(default: none)")
-TOLD_STEPS: Final = 20
-"""Control steps of an episode from which its end is told."""
+REPORTED_STEPS: Final = 20
+"""Control steps of an episode from which its end is reported."""
 _USUAL = "(default: those of the protocol)"
 
 
@@ -59,7 +59,7 @@ class Drive(Imports):
     it. --check measures it"""
     max_speed: Annotated[float, _LIMIT] = math.inf
     """greatest speed of a robot, m/s"""
-    max_turn_rate: Annotated[float, _LIMIT] = math.inf
+    max_angular_velocity: Annotated[float, _LIMIT] = math.inf
     """greatest angular velocity of a robot, rad/s"""
     max_kick_speed: Annotated[float, _LIMIT] = math.inf
     """greatest speed of a kick, m/s; 0 for no kicks"""
@@ -147,7 +147,7 @@ class Drive(Imports):
             source=self.source,
             blue_on_positive_half=self.blue_on_positive_half,
             referee=self.referee,
-            limits=Limits(self.max_speed, self.max_turn_rate, self.max_kick_speed),
+            limits=Limits(self.max_speed, self.max_angular_velocity, self.max_kick_speed),
             is_synchronous=self.synchronous,
             vision_timeout=self.vision_timeout,
             patience=self.patience,
@@ -174,7 +174,9 @@ class Drive(Imports):
             begun = session.matches.play.steps[0]
             outcome = session.step()
             # Where bodies stay, an episode may end again and again, as soon as it has begun.
-            if outcome.episodes is not None and (begun >= TOLD_STEPS or len(session.episodes) == 1):
+            if outcome.episodes is not None and (
+                begun >= REPORTED_STEPS or len(session.episodes) == 1
+            ):
                 metrics = session.episodes[-1].items()
                 numbers = ", ".join(f"{name} {value:.3g}" for name, value in metrics)
                 write(f"{clock.now:.1f} s: an episode ended, {numbers}")

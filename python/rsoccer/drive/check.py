@@ -16,7 +16,7 @@ from rsoccer.protocols.commands import CommandRow
 
 SPEED: Final = 0.4
 """Speed of the movements, m/s."""
-TURN_RATE: Final = 2.0
+ANGULAR_VELOCITY: Final = 2.0
 """Angular velocity of the turns, rad/s."""
 SECONDS: Final = 0.6
 """Duration of a movement, s."""
@@ -65,7 +65,7 @@ class Movement:
 
 @dataclass(frozen=True)
 class CheckedRobot:
-    """What the check found.
+    """Findings of the check.
 
     Attributes:
         position: place of the robot before it, m, in the package: own goal at -x.
@@ -109,7 +109,7 @@ def check_robot(connection: Connection, slot: int) -> CheckedRobot:
     row = _read(connection)
     place = _place(row, slot)
     _check_space(connection, row, slot)
-    way, angle = SPEED * SECONDS, TURN_RATE * SECONDS
+    way, angle = SPEED * SECONDS, ANGULAR_VELOCITY * SECONDS
     plan = [("forward", (way, 0.0, 0.0)), ("back", (-way, 0.0, 0.0))]
     if connection.config.robots[slot].drive != "differential":
         plan += [("left", (0.0, way, 0.0)), ("right", (0.0, -way, 0.0))]

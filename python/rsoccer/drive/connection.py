@@ -55,7 +55,7 @@ class Connection:
         link: Link | None = None,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        """Open the connection; robots are told to stand.
+        """Open the connection; robots are commanded to stand.
 
         Args:
             config: field, ball and robots.

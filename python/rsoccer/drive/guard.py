@@ -18,7 +18,7 @@ import time
 from typing import Any
 
 END_SECONDS = 1.0
-"""Time for which robots are told to stop at the end, s."""
+"""Time for which robots are commanded to stop at the end, s."""
 QUIT = b"q"
 """Byte that ends the guard without further messages."""
 

@@ -29,7 +29,7 @@ def limited(model: RobotModel, command: Floats, limits: Limits) -> Floats:
     forward, left, turn = asked.velocity
     speed, kick = math.hypot(forward, left), math.hypot(*asked.kick)
     by_speed = min(1.0, limits.speed / speed) if speed else 1.0
-    by_turn = min(1.0, limits.turn_rate / abs(turn)) if turn else 1.0
+    by_turn = min(1.0, limits.angular_velocity / abs(turn)) if turn else 1.0
     by_kick = min(1.0, limits.kick_speed / kick) if kick else 1.0
     if by_speed == by_turn == by_kick == 1.0:
         return command

@@ -28,7 +28,7 @@ class Received(NamedTuple):
 
 
 class Link(Protocol):
-    """What carries datagrams."""
+    """A carrier of datagrams."""
 
     def poll(self, seconds: float) -> list[Received]:
         """Return what has come in; wait for it if nothing has.

@@ -34,7 +34,7 @@ class Message(NamedTuple):
 
 
 class Answer(NamedTuple):
-    """What a simulator answers to commands."""
+    """Answer of a simulator to commands."""
 
     errors: list[tuple[str, str]]
     """Codes and texts of errors."""

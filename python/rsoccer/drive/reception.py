@@ -1,4 +1,4 @@
-"""What comes in on a connection: frames, packets of the referee, and answers."""
+"""Receiver of a connection: frames, packets of the referee, and answers."""
 
 from __future__ import annotations
 
@@ -133,16 +133,16 @@ class Reception:
 
     def _turn(self) -> None:
         """Take note of other sides, as the teams change them between the halves."""
-        told = self._officials.reported.blue_on_positive_half
-        if told is None or told == self.layout.blue_on_positive_half:
+        side = self._officials.reported.blue_on_positive_half
+        if side is None or side == self.layout.blue_on_positive_half:
             return
         if not self._follows_sides:
             self.counts["referee: blue on the other half"] += 1
             return
-        self.layout = replace(self.layout, blue_on_positive_half=told)
+        self.layout = replace(self.layout, blue_on_positive_half=side)
         self.sight.turn(self.layout)
         self.counts["sides changed"] += 1
-        self.tell(f"referee: blue's goal is at {'+x' if told else '-x'}")
+        self.tell(f"referee: blue's goal is at {'+x' if side else '-x'}")
 
     def _take_referee(self, data: bytes) -> None:
         state = self._officials.reported.state

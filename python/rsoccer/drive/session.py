@@ -43,7 +43,7 @@ class ObeyedReferee(RefereeRule):
         self._officials, self._n_blue = officials, task.config.n_blue
 
     def judge(self, play: Play) -> Restart | None:
-        """Take over what the referee has told; it restarts play, nobody here does."""
+        """Take over what the referee reports; it restarts play, nobody here does."""
         self._officials.reported.write(play.game, self._n_blue)
         return None
 

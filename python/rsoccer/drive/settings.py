@@ -16,7 +16,7 @@ PEERS: Final = ("grsim", "firasim", "ssl-simulation")
 SOURCES: Final = ("vision", "tracker")
 """Sources of states in the SSL: detections of cameras, or the frames of a tracker."""
 REFEREES: Final = ("obey", "require", "ignore")
-"""What a referee means: obeyed once it is heard; needed, so that robots stand until it is heard;
+"""Meanings of a referee: obeyed once it is heard; needed, so that robots stand until it is heard;
 or ignored."""
 _PORTS: Final[Mapping[str, Mapping[str, int]]] = {
     "grsim": {
@@ -39,14 +39,14 @@ class Limits:
 
     Attributes:
         speed: speed of a robot, m/s.
-        turn_rate: angular velocity of a robot, rad/s.
+        angular_velocity: angular velocity of a robot, rad/s.
         kick_speed: speed of a kick in space, m/s; 0 for no kicks.
         stop_speed: speed of a robot while the referee has play stopped, m/s. The rules of the SSL
             have 1.5 m/s.
     """
 
     speed: float = math.inf
-    turn_rate: float = math.inf
+    angular_velocity: float = math.inf
     kick_speed: float = math.inf
     stop_speed: float = 1.5
 
@@ -57,7 +57,7 @@ class Limits:
             TypeError: no number.
             ValueError: a number below 0 or NaN.
         """
-        for name in ("speed", "turn_rate", "kick_speed", "stop_speed"):
+        for name in ("speed", "angular_velocity", "kick_speed", "stop_speed"):
             value = getattr(self, name)
             if value != math.inf:
                 checks.number_in_range(f"limits: {name}", value, 0.0, 1e6)

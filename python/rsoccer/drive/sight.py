@@ -25,14 +25,14 @@ AROUND: Final = 3.0
 
 
 class Sight(ABC):
-    """What is seen of a match.
+    """Sight of a match.
 
     Attributes:
         layout: sides and numbers on the wire.
         clock: time by the stamps of the frames.
         frames: frames so far, copies and those of no use too: a simulator that waits for its
             clients sends a frame again until it is answered.
-        field_size: length and width of the field by the sender, m; None before it told them.
+        field_size: length and width of the field by the sender, m; None before they are known.
         has_ball: whether the ball was seen.
     """
 
