@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 import pytest
 
@@ -95,6 +97,37 @@ def test_robots_stop_without_vision_and_go_on_with_new_commands_alone() -> None:
     advance(connection, 0.3)
     assert link.frame.robots.velocity[0, :6, 0].min() > 0.5
     assert connection.sight.clock.jumps == 1
+
+
+def test_robots_stop_when_the_frames_stand_still() -> None:
+    link = ServerLink(referee="off")
+    connection = connected(CONFIG, link, "ssl-simulation", patience=1.0)
+    connection.begin()
+    advance(connection, 0.3)
+    last = next(d for d in _frames(link))
+    link.heard = set()
+    real_poll = link.poll
+
+    def poll(seconds: float) -> list[Received]:
+        link.give("vision", last)
+        link.tick()
+        return real_poll(seconds)
+
+    link.poll = poll  # type: ignore[method-assign]
+    sent = len(link.messages)
+    with pytest.raises(ConnectionError, match="expected a frame within 1 s"):
+        advance(connection, 0.025)
+    found = speeds(link.messages[sent:])
+    assert len(found) > 60
+    assert set(found[len(found) // 2 :]) == {0.0}
+
+
+def _frames(link: ServerLink) -> Iterator[bytes]:
+    """Yield the frames of vision to come."""
+    while True:
+        for received in link.poll(0.1):
+            if received.port == "vision":
+                yield received.data
 
 
 def test_a_connection_gives_up_in_the_end() -> None:

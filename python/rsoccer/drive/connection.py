@@ -97,7 +97,7 @@ class Connection:
                 self._guard = GuardProcess(self._link, stops, *times)
             self._send(self._stopped)
         except BaseException:
-            self._link.close()
+            self.close()
             raise
 
     @property

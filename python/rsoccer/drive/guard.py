@@ -11,9 +11,9 @@ from __future__ import annotations
 import base64
 import json
 import os
-import selectors
 import socket
 import sys
+import threading
 import time
 from typing import Any
 
@@ -21,6 +21,22 @@ END_SECONDS = 1.0
 """Time for which robots are commanded to stop at the end, s."""
 QUIT = b"q"
 """Byte that ends the guard without further messages."""
+
+
+class _Life:
+    """Signs of life, which a thread reads: pipes cannot be waited for on every system."""
+
+    def __init__(self, read: int) -> None:
+        self._read = read
+        self.last = time.monotonic()
+        self.has_ended = self.has_quit = False
+        threading.Thread(target=self._follow, daemon=True).start()
+
+    def _follow(self) -> None:
+        while data := os.read(self._read, 65536):
+            self.last = time.monotonic()
+            self.has_quit |= QUIT in data
+        self.has_ended = True
 
 
 def run(job: dict[str, Any], read: int) -> None:
@@ -37,22 +53,16 @@ def run(job: dict[str, Any], read: int) -> None:
         for fd, host, port, data in job["stops"]
     ]
     timeout, period = float(job["timeout"]), float(job["period"])
-    last, end = time.monotonic(), float("inf")
-    with selectors.DefaultSelector() as selector:
-        selector.register(read, selectors.EVENT_READ)
-        while time.monotonic() < end:
-            for _ in selector.select(period):
-                data = os.read(read, 65536)
-                last = time.monotonic()
-                if QUIT in data:
-                    return
-                if not data:
-                    selector.unregister(read)
-                    end = last + END_SECONDS
-            if end != float("inf") or time.monotonic() - last > timeout:
-                _send(stops)
-            if end != float("inf"):
-                time.sleep(period)
+    life, ended_at = _Life(read), None
+    while not life.has_quit:
+        now = time.monotonic()
+        if life.has_ended and ended_at is None:
+            ended_at = now
+        if ended_at is not None and now - ended_at > END_SECONDS:
+            return
+        if life.has_ended or now - life.last > timeout:
+            _send(stops)
+        time.sleep(period)
 
 
 def _send(stops: list[tuple[socket.socket, tuple[str, int], bytes]]) -> None:

@@ -67,7 +67,8 @@ class GuardProcess:
         assert self._process.stdin is not None, "it was asked for"
         self._input = self._process.stdin.fileno()
         os.write(self._input, json.dumps(job).encode() + b"\n")
-        os.set_blocking(self._input, False)
+        if inherits:
+            os.set_blocking(self._input, False)
 
     def sign(self) -> None:
         """Give a sign of life, if one is due.

@@ -69,7 +69,7 @@ class Reception:
 
     @property
     def silence(self) -> float:
-        """Time since the last frame on the wall, s."""
+        """Time since the last frame with a newer stamp, on the wall, s."""
         return max(0.0, self._clock() - self._seen_at)
 
     def lasting_refusal(self) -> str | None:
@@ -125,9 +125,8 @@ class Reception:
 
     def _take_frame(self, data: bytes) -> bool:
         self._turn()
-        before = self.sight.frames
         is_newer = self.sight.take(data)
-        if self.sight.frames > before:
+        if is_newer:  # frames whose clock stands still are as good as none
             self._seen_at = self._clock()
         return is_newer
 
