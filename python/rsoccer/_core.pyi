@@ -786,6 +786,10 @@ class Sensing:
         """Error of all positions of a camera, in each direction (m, 0 or above)."""
 
     @property
+    def own_cameras(self) -> float:
+        """1 for cameras of each team's own, 0 for the same that both teams see by (0 to 1)."""
+
+    @property
     def tracker(self) -> float:
         """1 to filter detections, 0 to take each with its true velocity (0 to 1)."""
 
@@ -1950,8 +1954,9 @@ class Simulator:
         Args:
             out: Output (n, row), float32; the rows of active worlds are written.
             active: Mask of the worlds to write (n,), bool. None for all.
-            known: Robots whose commands on their way a forecast knows: "blue", "yellow" or "all";
-                None for what is known without a forecast. Without one all know the same.
+            known: Robots whose commands on their way a forecast knows, and whose cameras they see
+                by if each team has its own: "blue", "yellow" or "all", by those of blue; None for
+                what blue knows without a forecast. Otherwise all know the same.
 
         Raises:
             ValueError: An array has another shape, `out` is not writeable, or another `known`.
