@@ -82,7 +82,7 @@ class CheckedRobot:
 
     @property
     def is_right(self) -> bool:
-        """Whether all movements are right."""
+        """True if all movements are right."""
         return all(movement.verdict == "right" for movement in self.movements)
 
 
@@ -92,6 +92,9 @@ def check_robot(connection: Connection, slot: int) -> CheckedRobot:
     Args:
         connection: the connection.
         slot: index of the robot in a state row, one that is driven.
+
+    Returns:
+        The movements with their verdicts, and the delay.
 
     Raises:
         ConnectionError: it is out of sight, or vision ends.

@@ -48,7 +48,7 @@ class Link(Protocol):
         """Release what is held."""
 
 
-class SocketLink:
+class SocketLink(Link):
     """Sockets.
 
     Attributes:

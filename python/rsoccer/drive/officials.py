@@ -67,7 +67,7 @@ class Officials:
             data: the bytes.
 
         Raises:
-            MessageError: no packet of the league's referee.
+            ValueError: no packet of the league's referee, a `MessageError`.
         """
         self.reported.receive(layout, data)
         self.packets += 1
@@ -75,7 +75,7 @@ class Officials:
 
     @property
     def is_halted(self) -> bool:
-        """Whether all robots must stand still."""
+        """True if all robots must stand still."""
         settings = self._settings
         if settings.referee == "ignore":
             return False

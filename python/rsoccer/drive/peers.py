@@ -87,7 +87,7 @@ class Peer(ABC):
             data: the bytes.
 
         Raises:
-            MessageError: the bytes are no answer.
+            ValueError: the bytes are no answer, a `MessageError`.
         """
         return None
 

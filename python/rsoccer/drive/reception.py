@@ -105,11 +105,14 @@ class Reception:
         return words + (f" without {', '.join(lacks)}" if lacks else "")
 
     def take(self, port: str, data: bytes) -> bool:
-        """Take in a datagram. Return whether the state is a newer one.
+        """Take in a datagram.
 
         Args:
             port: name of the port.
             data: the bytes; any.
+
+        Returns:
+            True if the state is a newer one.
         """
         try:
             if port == self.settings.source:

@@ -119,6 +119,9 @@ class Session:
     def step(self) -> Outcome:
         """Drive for a control step.
 
+        Returns:
+            What `Matches.step` returns.
+
         Raises:
             ConnectionError: there are no frames for `Settings.patience`.
             RuntimeError: the simulator refuses all commands, or the guard has ended.

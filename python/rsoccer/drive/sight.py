@@ -53,13 +53,16 @@ class Sight(ABC):
 
     @abstractmethod
     def take(self, data: bytes) -> bool:
-        """Take in a datagram, and return whether the state is a newer one.
+        """Take in a datagram.
 
         Args:
             data: the bytes.
 
+        Returns:
+            True if the state is a newer one.
+
         Raises:
-            MessageError: no message of the port.
+            ValueError: no message of the port, a `MessageError`.
         """
 
     @abstractmethod
@@ -127,7 +130,11 @@ class DetectionSight(Sight):
     """Detections of SSL-Vision, filtered by the tracker of the senses."""
 
     def __init__(self, layout: WireLayout) -> None:
-        """Begin before the first frame."""
+        """Begin before the first frame.
+
+        Args:
+            layout: sides and numbers on the wire.
+        """
         super().__init__(layout)
         self._tracker = VisionTracker(layout.config)
 

@@ -12,6 +12,8 @@ from rsoccer.arrays import Doubles, Floats, Mask
 from rsoccer.completed import CompletedStepper
 from rsoccer.drive.connection import Connection
 from rsoccer.frame import Frame
+from rsoccer.simulated_senses import SensingStepper
+from rsoccer.simulator_interface import Closer, Placer, Reader, Stepper
 
 TOLERANCE: Final = 0.002
 """Time by which a frame may be early to end a step, s: stamps are rounded."""
@@ -49,7 +51,7 @@ class _Poses:
         return np.array([self._connection.sight.clock.now])
 
 
-class NetworkStepper:
+class NetworkStepper(Stepper, Reader, SensingStepper, Closer):
     """Robots on a network, which stay where they are when episodes begin.
 
     Vision gives the time: a control step ends with the first frame after its length. What the
@@ -148,7 +150,7 @@ class NetworkStepper:
         out[:] = self._rows.rows
 
 
-class UntouchedNetwork(NetworkStepper):
+class UntouchedNetwork(NetworkStepper, Placer):
     """Robots on a network whose play goes on as it is when a task wants bodies somewhere else."""
 
     def place(
@@ -171,7 +173,7 @@ class UntouchedNetwork(NetworkStepper):
         return self.read(out)
 
 
-class NetworkSimulator(NetworkStepper):
+class NetworkSimulator(NetworkStepper, Placer):
     """A simulator on a network, which puts bodies where tasks want them."""
 
     def place(

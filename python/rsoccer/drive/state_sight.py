@@ -25,7 +25,11 @@ class StateSight(Sight):
     """Messages with positions and velocities."""
 
     def __init__(self, layout: WireLayout) -> None:
-        """Begin before the first frame."""
+        """Begin before the first frame.
+
+        Args:
+            layout: sides and numbers on the wire.
+        """
         super().__init__(layout)
         self._frame = self._nothing()
 

@@ -99,7 +99,7 @@ class WireLayout:
         return self.exchanged(team), self.ids[team][slot - n_blue * team]
 
     def exchanged(self, team: int) -> int:
-        """Convert a team from the package to the wire or back.
+        """Return a team of the package on the wire, or the reverse.
 
         Args:
             team: `BLUE` or `YELLOW`.

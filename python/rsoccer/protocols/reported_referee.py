@@ -57,7 +57,7 @@ class ReportedReferee:
             data: the bytes.
 
         Raises:
-            MessageError: no packet of the league's referee.
+            ValueError: no packet of the league's referee, a `MessageError`.
         """
         if self._is_vsss:
             reported = vssref.read_command(parse(vssref_pb2.Command, data))
