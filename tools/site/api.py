@@ -251,6 +251,7 @@ GROUPS: Final = (
             "rsoccer.protocols.tracked",
             "rsoccer.protocols.referee",
             "rsoccer.protocols.referee_state",
+            "rsoccer.protocols.reported_referee",
             "rsoccer.protocols.game_events",
             "rsoccer.protocols.simulator_control",
             "rsoccer.protocols.robot_control",
@@ -282,6 +283,19 @@ GROUPS: Final = (
             "rsoccer.bridge.live_page",
         ),
     ),
+    Group(
+        "Driving",
+        (
+            "rsoccer.drive",
+            "rsoccer.drive.settings",
+            "rsoccer.drive.network",
+            "rsoccer.drive.simulator",
+            "rsoccer.drive.session",
+            "rsoccer.drive.connection",
+            "rsoccer.drive.check",
+            "rsoccer.drive.delay",
+        ),
+    ),
     Group("Other interfaces", ("rsoccer.compat.robosim", "rsoccer.entities")),
 )
 """Every public module, once."""
@@ -307,6 +321,7 @@ PRIVATE: Final = (
     "rsoccer.compat",
     "rsoccer.compat.*",
     "rsoccer.demo",
+    "rsoccer.drive.*",
     "rsoccer.envs",
     "rsoccer.envs.*",
     "rsoccer.evaluate.*",

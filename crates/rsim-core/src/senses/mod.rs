@@ -15,6 +15,7 @@ mod track;
 mod tracker;
 mod visibility;
 mod vision;
+pub(crate) mod vision_tracker;
 
 use serde::{Deserialize, Serialize};
 
