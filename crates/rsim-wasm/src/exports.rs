@@ -93,6 +93,12 @@ pub extern "C" fn describe(handle: usize) -> i32 {
     tried(|session| session.describe(handle))
 }
 
+/// Writes the configuration of the physics (output: JSON of `SimConfig`, as replay files hold it).
+#[unsafe(no_mangle)]
+pub extern "C" fn configuration(handle: usize) -> i32 {
+    tried(|session| session.configuration(handle))
+}
+
 /// Writes the observation of a robot of a network's team, and the means of its action (output: f32).
 #[unsafe(no_mangle)]
 pub extern "C" fn decision(handle: usize, robot: usize) -> i32 {

@@ -209,6 +209,11 @@ impl Session {
         self.write(&told)
     }
 
+    pub(crate) fn configuration(&mut self, handle: usize) -> Result<i32, Failure> {
+        let config = self.one(handle)?.config().clone();
+        self.write(&config)
+    }
+
     pub(crate) fn decision(&mut self, handle: usize, robot: usize) -> Result<i32, Failure> {
         let decided = self.one(handle)?.decision(robot)?;
         let Some(Decision { observation, means }) = decided else {
