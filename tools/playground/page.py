@@ -19,7 +19,7 @@ from rsoccer.render.referee_floor import (
 )
 from rsoccer.render.words import side_of
 from rsoccer.replay import page
-from rsoccer.replay.quantized import HEADING, STEPS
+from rsoccer.replay.quantized import STEPS
 
 WEB: Final = Path(__file__).parent / "web"
 """Parts of the page that are its own."""
@@ -123,7 +123,7 @@ def data() -> dict[str, Any]:
             "opacity": {"area": AREA_TINT, "fill": FILL, "edge": EDGE, "mayTouch": MAY_TOUCH},
             "markColors": {side_of(team): color[:3] for team, color in TEAM_COLORS.items()},
         },
-        "steps": {"cos": STEPS[HEADING], **STEPS},
+        "steps": STEPS,
         "commandColumns": {name: COMMAND_COLUMNS[name] for name in ("differential", "omni")},
     }
 

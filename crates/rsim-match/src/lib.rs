@@ -8,7 +8,6 @@ mod actions;
 mod conditions;
 mod error;
 mod files;
-pub mod hashes;
 mod knowledge;
 mod network;
 mod observations;

@@ -355,3 +355,117 @@ fn drawn(seed: u32, nth: usize) -> u64 {
 const fn halves(word: u64) -> [u32; 2] {
     [word as u32, (word >> 32) as u32]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::network::tests::file;
+    use rsim_referee::codes::Command;
+
+    fn scripted(field: &str, seed: u32) -> Match {
+        let mut one = Match::new(Setup::new(field, 3, 3, seed)).expect("valid");
+        one.set_scripted(Team::Blue, 1.0).expect("SSL");
+        one.set_scripted(Team::Yellow, 0.5).expect("SSL");
+        one
+    }
+
+    fn play(one: &mut Match, steps: usize) -> Vec<f32> {
+        (0..steps).for_each(|_| one.step().expect("finite"));
+        one.row().to_vec()
+    }
+
+    fn named(name: &str, value: f32) -> std::collections::BTreeMap<String, f32> {
+        std::collections::BTreeMap::from([(name.to_owned(), value)])
+    }
+
+    #[test]
+    fn a_match_is_a_function_of_its_setup() {
+        let rows = [3, 3, 4].map(|seed| play(&mut scripted("ssl_b", seed), 600));
+        assert!(rows[0] == rows[1] && rows[0] != rows[2]);
+        let mut one = scripted("ssl_b", 3);
+        play(&mut one, 600);
+        assert!(one.game().in_play || one.game().command != Command::PrepareKickoff(Team::Blue));
+        assert!(one.game().last_touch.is_some(), "somebody has played the ball");
+    }
+
+    #[test]
+    fn a_person_drives_one_robot_and_gives_it_back() {
+        let mut one = Match::new(Setup::new("ssl_b", 2, 2, 0)).expect("valid");
+        let before = one.row().to_vec();
+        let controls = Controls { up: 1.0, ..Controls::default() };
+        one.control(1, Some(controls)).expect("a robot");
+        let driven = play(&mut one, 40);
+        let place = |row: &[f32], robot: usize| {
+            let at = BALL_COLUMNS.len() + robot * ROBOT_COLUMNS.len();
+            [row[at], row[at + 1]]
+        };
+        assert!(place(&driven, 1)[1] > place(&before, 1)[1] + 0.3);
+        assert!((place(&driven, 0)[1] - place(&before, 0)[1]).abs() < 1e-3);
+        one.control(1, None).expect("a robot");
+        let rolled = play(&mut one, 40);
+        assert!((play(&mut one, 10)[18] - rolled[18]).abs() < 1e-3, "it stands");
+        assert!(one.control(4, None).is_err());
+    }
+
+    #[test]
+    fn conditions_change_in_play_and_wrong_ones_change_nothing() {
+        let mut one = scripted("ssl_b", 1);
+        let before = play(&mut one, 200);
+        assert_eq!(one.known(Team::Blue), before);
+        let wrong = Conditions { ball: named("mass", -1.0), ..Conditions::default() };
+        assert!(one.change(wrong).is_err());
+        assert_eq!(one.row(), before);
+        assert_eq!(one.setup().conditions, Conditions::default());
+        let late = Conditions { sensing: named("delay", 0.1), ..Conditions::default() };
+        one.change(late.clone()).expect("valid");
+        assert_eq!(one.setup().conditions, late);
+        let near = one.row().iter().zip(&before).take(2).all(|(a, b)| (a - b).abs() < 1e-3);
+        assert!(near, "bodies stay where they are");
+        play(&mut one, 100);
+        assert_ne!(one.known(Team::Blue), one.row());
+    }
+
+    #[test]
+    fn bodies_move_by_hand_where_there_is_room() {
+        let mut one = Match::new(Setup::new("vss_3v3", 3, 3, 0)).expect("valid");
+        one.move_ball([0.3, 0.2], [1.0, 0.0]).expect("room");
+        assert!((one.row()[0] - 0.3).abs() < 1e-6 && (one.row()[3] - 1.0).abs() < 1e-6);
+        let before = one.row().to_vec();
+        assert!(one.move_ball([5.0, 0.0], [0.0; 2]).is_err());
+        assert!(one.move_robot(0, [0.3, 0.2]).is_err(), "the ball is there");
+        assert_eq!(one.row(), before);
+        one.move_robot(0, [-0.5, 0.5]).expect("room");
+        assert!((one.row()[BALL_COLUMNS.len()] + 0.5).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_network_plays_both_teams_and_stands_still_while_play_is_stopped() {
+        let network = Network::read(&file(80, 2, &[("action_repeat", "3")])).expect("a policy");
+        let mut one = Match::new(Setup::new("vss_3v3", 3, 3, 0)).expect("valid");
+        for team in Team::BOTH {
+            one.set_network(team, network.clone()).expect("it fits");
+        }
+        one.step().expect("finite");
+        assert!(one.commands().iter().all(|command| command.abs() < 1e-9), "before the kick-off");
+        let decision = one.decision(4).expect("a robot").expect("a network");
+        assert_eq!((decision.observation.len(), decision.means.len()), (80, 2));
+        play(&mut one, 400);
+        assert!(one.commands().iter().any(|command| command.abs() > 1e-3));
+        one.set_idle(Team::Blue);
+        assert_eq!(one.decision(0).expect("a robot"), None);
+        assert!(one.set_scripted(Team::Blue, 1.0).is_err(), "a script of another league");
+    }
+
+    #[test]
+    fn a_situation_goes_on_elsewhere() {
+        let mut first = scripted("ssl_b", 9);
+        let row = play(&mut first, 300);
+        let mut second = Match::new(first.setup().clone()).expect("valid");
+        second.resume(&row, &first.game().row()).expect("a situation");
+        assert_eq!(second.game(), first.game());
+        assert!(second.row().iter().zip(&row).take(2).all(|(a, b)| (a - b).abs() < 1e-3));
+        assert!(second.resume(&row[1..], &first.game().row()).is_err());
+        assert!(second.resume(&row, &[0.0]).is_err());
+        assert_eq!(second.game(), first.game());
+    }
+}

@@ -111,14 +111,8 @@ pub extern "C" fn names() -> i32 {
     tried(crate::session::Session::names)
 }
 
-/// Plays the golden scenes and matches, and writes their hashes (output: a line of name and hash for each).
+/// Plays the golden scenes of the physics, and writes their hashes (output: a line of name and hash for each).
 #[unsafe(no_mangle)]
 pub extern "C" fn golden() -> i32 {
     tried(|session| session.golden())
-}
-
-/// Plays a match of a policy file (input) against itself, and writes its hash (output).
-#[unsafe(no_mangle)]
-pub extern "C" fn hash_network(length: usize) -> i32 {
-    tried(|session| session.hash_network(length))
 }

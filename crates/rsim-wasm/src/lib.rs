@@ -9,6 +9,6 @@ mod exports;
 mod session;
 
 pub use exports::{
-    change, configuration, control, create, decision, describe, golden, hash_network, input, move_body, names,
+    change, configuration, control, create, decision, describe, golden, input, move_body, names,
     output, output_length, physics_version, remove, resume, row, set_side, step,
 };

@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use rsim_match::{Controls, Decision, Match, Network, hashes};
+use rsim_match::{Controls, Decision, Match, Network};
 use rsim_referee::Team;
 use rsim_referee::codes::{COMMANDS, Stage};
 use rsim_referee::events::{Event, EventKind};
@@ -235,18 +235,9 @@ impl Session {
     }
 
     pub(crate) fn golden(&mut self) -> Result<i32, Failure> {
-        let scenes = scenes::golden::hashes();
-        let matches = hashes::scripted()?;
-        let matches = matches.into_iter().map(|(name, hash)| (format!("match_{name}"), hash));
-        let lines = scenes.into_iter().chain(matches);
+        let lines = scenes::golden::hashes().into_iter();
         let lines: Vec<String> = lines.map(|(name, hash)| format!("{name} {hash:016x}")).collect();
         self.output = lines.join("\n").into_bytes();
-        Ok(0)
-    }
-
-    pub(crate) fn hash_network(&mut self, length: usize) -> Result<i32, Failure> {
-        let network = Network::read(self.given(length)?)?;
-        self.output = format!("{:016x}", hashes::network(&network)?).into_bytes();
         Ok(0)
     }
 }
@@ -290,5 +281,68 @@ fn told_event(event: &Event) -> ToldEvent {
         team: event.team.map(Team::index),
         robot: event.robot,
         position: [event.position.x, event.position.y],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exports;
+
+    fn give(text: &str) -> usize {
+        with(|session| session.input = text.as_bytes().to_vec());
+        text.len()
+    }
+
+    fn output() -> String {
+        with(|session| String::from_utf8_lossy(&session.output).into_owned())
+    }
+
+    fn handle(number: i32) -> usize {
+        usize::try_from(number).unwrap_or_else(|_| panic!("{}", output()))
+    }
+
+    #[test]
+    fn a_match_is_created_stepped_told_and_removed() {
+        let text = r#"{"field": "ssl_b", "blue": 2, "yellow": 3}"#;
+        let one = handle(exports::create(give(text)));
+        assert_eq!(exports::set_side(one, 1, 0.8, 0), 0);
+        assert_eq!(exports::control(one, 0, give(r#"{"up": 1}"#)), 0);
+        for _ in 0..50 {
+            assert!(exports::step(one) >= 0, "{}", output());
+        }
+        let numbers = exports::row(one, 0);
+        assert_eq!(usize::try_from(numbers).expect("a count") * 4, exports::output_length());
+        assert_eq!(exports::describe(one), 0);
+        let told: serde_json::Value = serde_json::from_str(&output()).expect("JSON");
+        assert_eq!(told["steps"], 50);
+        assert_eq!(told["may_touch"].as_array().map(Vec::len), Some(5));
+        assert_eq!(exports::names(), 0);
+        let names: serde_json::Value = serde_json::from_str(&output()).expect("JSON");
+        assert_eq!(names["game"].as_array().map(Vec::len), Some(Game::columns().len()));
+        assert_eq!(exports::configuration(one), 0);
+        let config: rsim_core::SimConfig = serde_json::from_str(&output()).expect("JSON");
+        assert_eq!(config.yellow.len(), 3);
+        assert_eq!(exports::remove(one), 0);
+        assert_eq!(exports::step(one), -1);
+        assert!(output().contains("match"), "{}", output());
+        assert_eq!(handle(exports::create(give(text))), one, "the handle is free again");
+    }
+
+    #[test]
+    fn errors_are_texts() {
+        assert_eq!(exports::create(give("{}")), -1);
+        assert!(output().contains("field"), "{}", output());
+        assert_eq!(exports::create(99), -1);
+        assert!(output().contains("input"), "{}", output());
+        let one = handle(exports::create(give(r#"{"field": "vss_3v3", "blue": 1, "yellow": 1}"#)));
+        assert_eq!(exports::decision(one, 0), -1);
+        assert_eq!(exports::row(one, 9), -1);
+        assert!(output().contains("which"), "{}", output());
+        assert_eq!(exports::move_body(one, 0, 0.2, 0.1, 0.0, 0.0), 0);
+        assert_eq!(exports::move_body(one, 7, 0.2, 0.1, 0.0, 0.0), -1);
+        assert_eq!(exports::change(one, give(r#"{"sensing": {"delay": 0.1}}"#)), 0);
+        assert_eq!(exports::resume(one, give("12345678")), -1);
+        assert!(output().contains("situation"), "{}", output());
     }
 }

@@ -49,11 +49,6 @@ class Engine {
     return this.text().split("\n");
   }
 
-  hashNetwork(file) {
-    this.call("hash_network", this.give(file));
-    return this.text();
-  }
-
   newMatch(setup) {
     return new Match(this, this.call("create", this.give(JSON.stringify(setup))));
   }

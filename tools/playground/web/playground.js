@@ -323,7 +323,7 @@ class Playground {
   async save() {
     const link = document.createElement("a");
     link.href = URL.createObjectURL(new Blob([await this.replayFile()]));
-    link.download = `playground-${this.league.id}.rsoccer`;
+    link.download = `playground-${this.league.id}.rsr`;
     link.click();
     URL.revokeObjectURL(link.href);
   }
