@@ -15,7 +15,7 @@ MODULE = Path(os.environ.get("RSOCCER_WASM", "rsim_wasm.wasm"))
 RUN = Path(__file__).parent / "run.js"
 
 
-def run(script: str) -> Any:
+def run(script: str) -> Any:  # noqa: ANN401  (any JSON)
     """What a script returns; it sees `engine` and the parts of the playground."""
     command = ["node", str(RUN), str(MODULE), script]
     ran = subprocess.run(command, capture_output=True, text=True, check=False)

@@ -23,7 +23,8 @@ for (let step = 0; step < 400; step++) {
   if (step) match.step();
   live.add(match.row("state"), null, match.told());
   rows.push(base64(live.newest));
-  recorder.add(live.newest, live.headings[live.frames - 1], match.row("commands"), step === 200 ? ["blue"] : []);
+  const headings = live.headings[live.frames - 1];
+  recorder.add(live.newest, headings, match.row("commands"), step === 200 ? ["blue"] : []);
 }
 const about = {
   package: data.version, physics: engine.exports.physics_version(), task: "SSLMatch-v0",
@@ -81,7 +82,9 @@ def test_wrong_input_is_refused_by_name() -> None:
     errors = run(
         """
         const errors = [];
-        const tried = (action) => { try { action(); } catch (error) { errors.push(error.message); } };
+        const tried = (action) => {
+          try { action(); } catch (error) { errors.push(error.message); }
+        };
         tried(() => engine.newMatch({field: "moon", blue: 1, yellow: 1}));
         tried(() => engine.newMatch({field: "ssl_b", blue: 0, yellow: 1}));
         const match = engine.newMatch({field: "vss_3v3", blue: 3, yellow: 3});

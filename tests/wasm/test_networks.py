@@ -5,8 +5,6 @@ import json
 import numpy as np
 import pytest
 
-import rsoccer
-from rsoccer.frame import Frame
 from rsoccer.history import ObservationStack
 from rsoccer.matches import Matches
 from rsoccer.policies.network import Network
@@ -48,15 +46,14 @@ def test_observations_are_equal_and_networks_within_1e_5(task: str, field: str, 
     decisions = decisions.reshape(STEPS, robots, size + network.action_size)
     stacked, means = decisions[..., :size], decisions[..., size:]
 
-    matches = Matches(task, learners=list(rsoccer.make_task(task).robots))
+    matches = Matches(task)
     matches.reset()
     layout = matches.task.layout
     plain = stacked[..., : layout.size]
     last = plain[..., layout.blocks["action"].columns]
     for step in range(STEPS):
         play = matches.play
-        play.frame = Frame(rows[step : step + 1].copy(), 3, 3)
-        play.actions = last[step : step + 1].copy()
+        play.frame.rows[:], play.actions[:] = rows[step], last[step]
         play.expire_views()
         expected = layout.observe(play)
         assert np.array_equal(expected[0], plain[step]), f"observations of step {step}"
@@ -72,12 +69,12 @@ def test_observations_are_equal_and_networks_within_1e_5(task: str, field: str, 
 
 
 def test_a_policy_of_another_match_is_refused_with_both_layouts() -> None:
+    file = json.dumps(str(FOLDER / "VSSSelfPlay-v0.safetensors"))
     error = run(
+        f"""
+        const match = engine.newMatch({{field: "ssl_b", blue: 6, yellow: 6}});
+        try {{ match.setNetwork(0, read({file})); }} catch (error) {{ return error.message; }}
         """
-        const match = engine.newMatch({field: "ssl_b", blue: 6, yellow: 6});
-        try { match.setNetwork(0, read(%s)); } catch (error) { return error.message; }
-        """
-        % json.dumps(str(FOLDER / "VSSSelfPlay-v0.safetensors"))
     )
     assert "VSSSelfPlay-v0" in error
     assert "teammates 2x7" in error

@@ -27,7 +27,7 @@ def page() -> str:
     return to_html(packed)
 
 
-def shown(script: str, folder: Path, **size: int) -> Any:
+def shown(script: str, folder: Path, **size: int) -> Any:  # noqa: ANN401  (any JSON)
     """What a script returns that has the playground as `player`; the console stays empty."""
     result: Shown = show(page().replace("</body>", READY), script, folder, **size)
     assert result.console == []
@@ -54,7 +54,8 @@ def test_each_league_plays_with_each_side(tmp_path: Path) -> None:
         };
         for (const league of player.data.leagues) {
           select("league", league.id);
-          const sides = [...document.getElementById("side-0").options].map((option) => option.value);
+          const { options } = document.getElementById("side-0");
+          const sides = [...options].map((option) => option.value);
           for (const side of sides) {
             select("side-0", side);
             for (let step = 0; step < 400; step++) player.step();
@@ -84,7 +85,7 @@ def test_each_league_plays_with_each_side(tmp_path: Path) -> None:
 def test_a_person_plays_and_pulls_the_ball(tmp_path: Path, width: int, height: int) -> None:
     result = shown(
         """
-        const press = (key) => window.dispatchEvent(new KeyboardEvent("keydown", {key, bubbles: true}));
+        const press = (key) => window.dispatchEvent(new KeyboardEvent("keydown", {key}));
         document.getElementById("side-0").value = "idle";
         document.getElementById("side-0").dispatchEvent(new Event("change"));
         for (let step = 0; step < 120; step++) player.step();
@@ -128,7 +129,8 @@ def test_a_dropped_policy_plays_and_a_wrong_one_is_refused(tmp_path: Path) -> No
         player.addPolicy("mine", bytes);
         for (let step = 0; step < 100; step++) player.step();
         const replay = await player.replayFile();
-        return {{ refused, side: player.choices.sides[0], hidden: message().hidden, size: replay.length }};
+        const side = player.choices.sides[0], hidden = message().hidden;
+        return {{ refused, side, hidden, size: replay.length }};
         """,
         tmp_path,
     )

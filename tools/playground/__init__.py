@@ -1,1 +1,1 @@
-"""The playground: matches in a browser, as one page without a network. `make playground` writes it."""
+"""The playground: matches in a browser, as one page. `make playground` writes it."""
