@@ -11,7 +11,8 @@ from rsoccer.policies.network import Network
 from rsoccer.policies.trained import FOLDER
 from tests.wasm.engine import numbers, run
 
-STEPS = 300
+STEPS = 700
+"""17.5 s: a kick-off of SSL begins after 10 s where nobody takes his place."""
 PLAY = """
 const match = engine.newMatch(%s);
 const file = read(%s);
