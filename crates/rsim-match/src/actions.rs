@@ -33,7 +33,7 @@ impl Actions {
     pub(crate) fn new(config: &SimConfig) -> Result<Self, MatchError> {
         let expected = "robots with a differential or an omnidirectional drive";
         let Some(robot) = config.robots().next() else {
-            return Err(MatchError::argument("robots", expected, "none"));
+            return Err(MatchError::argument("robots", expected, &"none"));
         };
         match robot.drive {
             Drive::Differential(drive) => Ok(Self::Wheels(drive.max_wheel_speed)),

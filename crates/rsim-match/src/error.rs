@@ -41,9 +41,9 @@ impl MatchError {
     /// An argument that is not as expected.
     pub(crate) fn argument(
         name: &'static str,
-        expected: impl ToString,
-        got: impl ToString,
+        expected: impl Into<String>,
+        got: &impl ToString,
     ) -> Self {
-        Self::Argument { name, expected: expected.to_string(), got: got.to_string() }
+        Self::Argument { name, expected: expected.into(), got: got.to_string() }
     }
 }

@@ -68,9 +68,10 @@ impl Network {
         }
         let mean = take(&mut arrays, "mean", &[inputs])?;
         let std = above_zero("std", take(&mut arrays, "std", &[inputs])?)?;
-        let action_std = match arrays.contains_key("action_std") {
-            true => Some(above_zero("action_std", take(&mut arrays, "action_std", &[actions])?)?),
-            false => None,
+        let action_std = if arrays.contains_key("action_std") {
+            Some(above_zero("action_std", take(&mut arrays, "action_std", &[actions])?)?)
+        } else {
+            None
         };
         if let Some(name) = arrays.keys().next() {
             return Err(wrong(&format!("unknown array {name:?}")));
@@ -140,7 +141,9 @@ impl Network {
             values = layer.outputs(&values);
             if nth < last {
                 // Not the system's `tanh`, whose last bit differs between platforms.
-                values.iter_mut().for_each(|value| *value = libm::tanhf(*value));
+                for value in &mut values {
+                    *value = libm::tanhf(*value);
+                }
             }
         }
         values

@@ -51,6 +51,9 @@ impl Observations {
     }
 
     /// A layout: with presence and the state of the match if `has_game`.
+    ///
+    /// # Panics
+    /// If the configuration has no robots.
     pub fn new(config: &SimConfig, action_size: usize, has_game: bool) -> Self {
         let (blue, yellow) = (config.blue.len(), config.yellow.len());
         let largest = blue.max(yellow);

@@ -137,7 +137,9 @@ impl Player {
                 *action += deviation * noise;
             }
         }
-        action.iter_mut().for_each(|number| *number = number.clamp(-1.0, 1.0));
+        for number in &mut action {
+            *number = number.clamp(-1.0, 1.0);
+        }
         action
     }
 }

@@ -50,7 +50,7 @@ impl Setup {
         for (name, got) in [("blue", self.blue), ("yellow", self.yellow)] {
             if !(1..=MAX_ROBOTS).contains(&got) {
                 let expected = format!("1 to {MAX_ROBOTS} robots");
-                return Err(MatchError::argument(name, expected, got));
+                return Err(MatchError::argument(name, expected, &got));
             }
         }
         let field = Field::preset(&self.field)?;

@@ -52,7 +52,7 @@ impl Side {
             return Err(MatchError::argument(
                 "side",
                 "a side of this league",
-                format!("the scripted SSL team on {got}"),
+                &format!("the scripted SSL team on {got}"),
             ));
         };
         let ball = &config.ball;

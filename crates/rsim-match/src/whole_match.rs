@@ -279,7 +279,7 @@ impl Match {
     pub fn resume(&mut self, row: &[f32], game: &[f32]) -> Result<(), MatchError> {
         if row.len() != self.row.len() {
             let expected = format!("{} numbers", self.row.len());
-            return Err(MatchError::argument("row", expected, row.len()));
+            return Err(MatchError::argument("row", expected, &row.len()));
         }
         let game = Game::read(game)?;
         let old = self.row.clone();
@@ -341,7 +341,7 @@ impl Match {
         if robot < robots {
             return Ok(());
         }
-        Err(MatchError::argument("robot", format!("an index below {robots}"), robot))
+        Err(MatchError::argument("robot", format!("an index below {robots}"), &robot))
     }
 }
 

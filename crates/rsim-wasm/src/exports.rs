@@ -2,7 +2,7 @@
 
 use rsim_core::PHYSICS_VERSION;
 
-use crate::session::{tried, with};
+use crate::session::{Session, tried, with};
 
 /// Address of room for `length` bytes of input.
 #[unsafe(no_mangle)]
@@ -108,11 +108,11 @@ pub extern "C" fn decision(handle: usize, robot: usize) -> i32 {
 /// Writes the names of all columns, factors and numbers of senses (output: JSON).
 #[unsafe(no_mangle)]
 pub extern "C" fn names() -> i32 {
-    tried(crate::session::Session::names)
+    tried(Session::names)
 }
 
 /// Plays the golden scenes of the physics, and writes their hashes (output: a line of name and hash for each).
 #[unsafe(no_mangle)]
 pub extern "C" fn golden() -> i32 {
-    tried(|session| session.golden())
+    with(Session::golden)
 }

@@ -234,11 +234,11 @@ impl Session {
         })
     }
 
-    pub(crate) fn golden(&mut self) -> Result<i32, Failure> {
+    pub(crate) fn golden(&mut self) -> i32 {
         let lines = scenes::golden::hashes().into_iter();
         let lines: Vec<String> = lines.map(|(name, hash)| format!("{name} {hash:016x}")).collect();
         self.output = lines.join("\n").into_bytes();
-        Ok(0)
+        0
     }
 }
 

@@ -175,7 +175,6 @@ class Playground {
   drive(robot) {
     if (this.driven >= 0 && this.driven !== robot) this.match.control(this.driven, null);
     this.driven = robot;
-    this.inputs.releaseAll();
     this.view.selected = robot;
     $("driven").value = String(robot);
     for (const id of ["stick", "kicks"]) $(id).classList.toggle("on", robot >= 0);
