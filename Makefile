@@ -117,8 +117,7 @@ check-aarch64: ## run the golden hashes and the determinism tests of the physics
 	done
 
 # WebAssembly: CONTRIBUTING.md lists the packages that it needs. The standard library is built, too, with a flag that
-# stable compilers have only under the variable RUSTC_BOOTSTRAP. Without LTO the module is as fast, and built in a third
-# of the time.
+# stable compilers have only under the variable RUSTC_BOOTSTRAP. LTO, which takes minutes, is left out.
 WASM := target/wasm/wasm32-unknown-unknown/release/rsim_wasm.wasm
 wasm: export CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER ?= wasm-ld-19
 wasm: export CARGO_PROFILE_RELEASE_LTO := off
