@@ -1,7 +1,7 @@
 """Speed of matches as WebAssembly in Node, and of the same matches by native code, on one core.
 
-`python -m tools.playground.speed` prints control steps a second of processor time. The module is that
-of `make playground`.
+`python -m tools.playground.speed` prints control steps a second of processor time. The module is
+that of `make playground`.
 """
 
 import json
