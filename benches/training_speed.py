@@ -2,7 +2,8 @@
 
 Decisions a second of single robots in whole teams: of the simulation alone, with observations and
 policies, and with learning. Each update has three passes over its batch. Speeds are made of the
-least times of single decisions and minibatches, so that other programs on the machine count little.
+least times of single decisions and minibatches, on one thread of those of the processor, so that
+other programs on the machine count little.
 `--base FOLDER` measures the trainer of another checkout in turn with this one, an update of each
 after the other. `--store` renews `benches/results/training_speed.md`, which
 `make docs` puts into `docs/speed.md`.

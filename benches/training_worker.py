@@ -8,8 +8,9 @@ import math
 import sys
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
-from rsoccer.train import Args
+from rsoccer.train import Args, clock
 from rsoccer.train.ppo import update
 from rsoccer.train.run.trainer import Trainer
 
@@ -22,13 +23,17 @@ def main(task: str, threads: int, worlds: int) -> None:
 
     A line of the output has seconds of the simulator, of the rollout, of learning, and the time of
     the processor for all, each per decision. The first three are made of the least times of single
-    decisions and minibatches, which other programs disturb least.
+    decisions and minibatches, which other programs disturb least; on one thread they are times of
+    the processor, too.
 
     Args:
         task: name of the task, with its recommended settings; whole teams learn.
         threads: threads of the run.
         worlds: matches at once; 0 for the recommended number.
     """
+    # Other programs make the processor wait, but change its own time little.
+    timer = time.process_time if threads == 1 else time.perf_counter
+    vars(clock)["time"] = SimpleNamespace(perf_counter=timer)
     settings = {"rollout": {"worlds": worlds}} if worlds else {}
     trainer = Trainer(
         Args.for_task(
@@ -46,7 +51,7 @@ def main(task: str, threads: int, worlds: int) -> None:
 
     def stamp() -> None:
         physics = trainer.clock.seconds.get("physics", 0.0)
-        stamps.append((time.perf_counter(), physics))
+        stamps.append((timer(), physics))
 
     for _ in sys.stdin:
         trainer.clock.take()

@@ -12,8 +12,8 @@ from rsoccer.train.network.actor_critic import ActorCritic
 from rsoccer.train.network.perceptron import Perceptron, PerceptronPass
 from rsoccer.train.workers import Workers, shards
 
-SHARD = 256
-"""Rows of a part, few enough that the robots of some hundred matches occupy several threads."""
+SHARD = 1024
+"""Rows of a part: with fewer the calls of torch take a larger share."""
 
 
 class Evaluator:

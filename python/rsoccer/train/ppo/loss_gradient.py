@@ -22,8 +22,8 @@ CLIP_RANGE: Final = 0.2
 """Largest change of an action's probability ratio that the loss rewards."""
 VALUE_COEF: Final = 0.5
 """Weight of the value loss."""
-SHARD: Final = 1024
-"""Samples of a part on a CPU. Smaller ones cost more calls, larger ones leave the cache."""
+SHARD: Final = 4096
+"""Samples of a part on a CPU: with smaller ones the calls of torch take a larger share."""
 
 
 class LossGradient:
