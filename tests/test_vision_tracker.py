@@ -32,11 +32,11 @@ def test_velocities_of_noisy_detections_are_estimated() -> None:
         time = frame / 60
         ball = np.array([[0.5 * time, -time]]) + rng.normal(0.0, 0.0005, (1, 2))
         assert tracker.take(time, ball.astype(np.float32), seen(1, time, 2.0 * time))
-    frame = read(tracker)
-    np.testing.assert_allclose(frame.ball.velocity[0], [0.5, -1.0], atol=0.1)
-    np.testing.assert_allclose(frame.robots.velocity[0, 1], [1.0, 0.0], atol=0.05)
-    assert frame.robots.angular_velocity[0, 1] == pytest.approx(2.0, abs=0.1)
-    assert frame.robots.absent[0].tolist() == [1.0, 0.0]
+    found = read(tracker)
+    np.testing.assert_allclose(found.ball.velocity[0], [0.5, -1.0], atol=0.1)
+    np.testing.assert_allclose(found.robots.velocity[0, 1], [1.0, 0.0], atol=0.05)
+    assert found.robots.angular_velocity[0, 1] == pytest.approx(2.0, abs=0.1)
+    assert found.robots.absent[0].tolist() == [1.0, 0.0]
     assert tracker.robots_in_sight == [1]
     assert tracker.has_ball
     assert tracker.time == pytest.approx(119 / 60)

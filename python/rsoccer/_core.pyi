@@ -46,6 +46,7 @@ __all__ = [
     "Steering",
     "Threads",
     "Viewpoint",
+    "VisionTracker",
     "add_rewards",
     "build_info",
     "clip_actions",

@@ -68,7 +68,8 @@ def test_robots_are_driven_and_stand_before_and_after() -> None:
 
 
 def test_robots_stop_without_vision_and_go_on_with_new_commands_alone() -> None:
-    link, events = ServerLink(referee="off"), []
+    link = ServerLink(referee="off")
+    events: list[str] = []
     connection = connected(CONFIG, link, "ssl-simulation")
     connection.on_event.append(events.append)
     connection.begin()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+from typing import Any
 
 import numpy as np
 import pytest
@@ -17,6 +18,7 @@ from rsoccer.drive import (
     UntouchedNetwork,
     forecasting,
 )
+from rsoccer.drive.connection import Connection
 from rsoccer.evaluate import evaluate
 from rsoccer.lineup import lineup
 from rsoccer.protocols.schemas import simulation_pb2
@@ -34,7 +36,7 @@ def matches_of(
     peer: str,
     kind: type[NetworkStepper] = NetworkSimulator,
     delay: float = 0.0,
-    **settings: object,
+    **settings: Any,  # noqa: ANN401
 ) -> Matches:
     made = make_task(task)
 
@@ -73,7 +75,7 @@ def played(matches: Matches, steps: int) -> list[dict[str, float]]:
         ("grsim", {}),
     ],
 )
-def test_the_ball_is_reached(peer: str, settings: dict[str, object]) -> None:
+def test_the_ball_is_reached(peer: str, settings: dict[str, Any]) -> None:
     link = ServerLink(referee="off")
     found = played(matches_of(GO_TO_BALL, link, peer, **settings), 110)
     assert len(found) >= 2
@@ -166,7 +168,8 @@ def test_the_forecast_is_the_state_after_the_delay() -> None:
 
 
 def test_a_policy_is_evaluated_there() -> None:
-    link, made = ServerLink(referee="off"), []
+    link = ServerLink(referee="off")
+    made: list[Connection] = []
 
     def simulator(config: SimConfig, worlds: int, threads: Threads) -> NetworkSimulator:
         if not made:

@@ -56,7 +56,7 @@ def test_a_match_is_as_the_game_controller_tells(exchanged: bool) -> None:
     assert game.seconds_left[0] == pytest.approx(77.0)
 
 
-def test_the_side_is_told_and_changes_no_place() -> None:
+def test_the_side_is_reported_and_changes_no_place() -> None:
     _, layout = new_game()
     reported = ReportedReferee(RefereeConfig("ssl_2026_b"))
     assert reported.blue_on_positive_half is None

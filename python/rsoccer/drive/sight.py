@@ -110,7 +110,7 @@ class Sight(ABC):
         """Places (k, 2) on the field or around it; others are mistakes of the sender."""
         field = self.layout.config.field
         limits = (field.length / 2 + AROUND, field.width / 2 + AROUND)
-        near: Mask = (np.abs(places) <= limits).all(axis=1)
+        near: Mask = np.all(np.abs(places) <= limits, axis=1)
         return near
 
     def _time(self, stamp: float, sender: int = 0) -> tuple[float, bool] | None:
