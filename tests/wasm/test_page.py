@@ -28,7 +28,7 @@ def page() -> str:
 
 
 def shown(script: str, folder: Path, **size: int) -> Any:  # noqa: ANN401  (any JSON)
-    """What a script returns that has the playground as `player`; the console stays empty."""
+    """Result of a script that has the playground as `player`; the console stays empty."""
     result: Shown = show(page().replace("</body>", READY), script, folder, **size)
     assert result.console == []
     return result.result
