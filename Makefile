@@ -83,7 +83,7 @@ check-libraries: $(LIBRARIES)/made ## run the tests with Stable-Baselines3, Supe
 	$(LIBRARIES)/bin/python $(STRICT) tests/wrappers --ignore-glob='*rllib*' --ignore-glob='*recipes*' \
 		tests/test_docstrings.py tests/benches/learning/running/test_sb3.py \
 		tests/benches/learning/running/test_pace.py \
-		$(foreach library,stable_baselines3 supersuit torchrl,'$(OF_LIBRARY)[$(library)]')
+		$(foreach library,minari stable_baselines3 supersuit torchrl,'$(OF_LIBRARY)[$(library)]')
 
 check-rllib: $(RLLIB)/made ## run the tests with RLlib and the Gymnasium that Ray pins, in an environment of their own
 	$(RLLIB)/bin/python $(STRICT) tests/wrappers/test_rllib*.py tests/test_docstrings.py '$(OF_LIBRARY)[ray]'
@@ -170,6 +170,7 @@ bench: $(VENV)/built ## measure the speed of this machine (some minutes; no othe
 	$(CARGO) bench --locked --package rsim-bench --bench step
 	$(BIN)/python -m benches.throughput
 	$(BIN)/python -m benches.whole_matches --store
+	$(BIN)/python -m benches.training_speed --store
 
 BEFORE ?= main
 compare: $(VENV)/built ## compare the speed of a step with that of an earlier commit, BEFORE=main

@@ -43,8 +43,13 @@ INSTALLS: Final = {
     ),
     "'rsoccer[train]'": Install("import rsoccer.train, safetensors, torch, tensorboard"),
     "'rsoccer[cli]'": Install(COMMAND),
+    "'rsoccer[data]'": Install("import minari, h5py, rsoccer.datasets"),
     "'rsoccer[network]'": Install(
         "import websockets, rsoccer.bridge.server, rsoccer.protocols.vision"
+    ),
+    "'rsoccer[onnx]'": Install(
+        "from rsoccer import policies; best = policies.make_policy('best', 'VSS-v0'); "
+        "best.save_onnx('best.onnx'); print(policies.make_policy('best.onnx', 'VSS-v0'))"
     ),
     "'rsoccer[cli,network]'": Install("import sys, rsoccer.cli; rsoccer.cli.main(['serve', '-h'])"),
     '"stable-baselines3>=2.4"': Install("import rsoccer.sb3; rsoccer.sb3.SoccerVecEnv('VSS-v0')"),

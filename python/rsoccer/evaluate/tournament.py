@@ -20,12 +20,12 @@ from rsoccer.evaluate.ratings import rate
 from rsoccer.evaluate.results import MIN_PER_SIDE
 from rsoccer.evaluate.schedule import first_seed, matches_per_side, processors
 from rsoccer.evaluate.standings import Standing, Standings
-from rsoccer.evaluate.tournament_report import draw, report
+from rsoccer.evaluate.tournament_report import draw, report, report_html
 from rsoccer.lineup import task_for
 from rsoccer.policies import PolicyLike, check_policy_like, is_registered, make_policy, name_of
 from rsoccer.policies.base import Policy
 from rsoccer.policies.labels import labels
-from rsoccer.policies.policy_file import SUFFIX
+from rsoccer.policies.policy_file import SUFFIXES
 from rsoccer.randomization import Ranges
 from rsoccer.registry import as_task
 from rsoccer.sources import SensingSource, SimulatorSource
@@ -56,6 +56,10 @@ class Tournament(Standings):
 
     def __str__(self) -> str:
         return report(self)
+
+    def _repr_html_(self) -> str:
+        """Ratings, and scores as a heat map, for notebooks."""
+        return report_html(self)
 
 
 def tournament(
@@ -213,7 +217,7 @@ def _identity(policy: PolicyLike) -> object:
     if isinstance(policy, Policy):
         return id(policy)
     text = os.fspath(policy)
-    return os.path.realpath(text) if SUFFIX in text else text
+    return os.path.realpath(text) if any(end in text for end in SUFFIXES) else text
 
 
 def _fitting(policy: PolicyLike, task: Task) -> Policy:
