@@ -1,4 +1,4 @@
-"""The WebAssembly module in Node, and what it returns."""
+"""The WebAssembly module in Node, and results of scripts there."""
 
 import base64
 import json
@@ -16,7 +16,7 @@ RUN = Path(__file__).parent / "run.js"
 
 
 def run(script: str) -> Any:  # noqa: ANN401  (any JSON)
-    """What a script returns; it sees `engine` and the parts of the playground."""
+    """Return the result of a script; it sees `engine` and the parts of the playground."""
     command = ["node", str(RUN), str(MODULE), script]
     ran = subprocess.run(command, capture_output=True, text=True, check=False)
     assert ran.returncode == 0, ran.stderr

@@ -59,7 +59,7 @@ def test_matches_have_the_bytes_of_native_matches(
     rows, known = numbers(played["rows"]), numbers(played["known"])
     games, commands = numbers(played["games"]), numbers(played["commands"])
 
-    sensing = Sensing(**senses) if senses else None
+    sensing = Sensing("none", **senses) if senses else None
     native = NativeMatch(field, robots, (1.0, 0.6), SEED, sensing)
     for step in range(STEPS + 1):
         if step:

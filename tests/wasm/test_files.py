@@ -15,13 +15,13 @@ const data = %s;
 const match = engine.newMatch({field: "ssl_b", blue: 2, yellow: 2, seed: 5});
 match.setScripted(0, 1);
 match.setScripted(1, 0);
-const live = new LiveRows(engine.names, 4, match.told());
-live.begin(match.row("state"), null, match.told());
+const live = new LiveRows(engine.names, 4, match.report());
+live.begin(match.row("state"), null, match.report());
 const recorder = new Recorder(engine.names, data.steps, 4);
 const rows = [];
 for (let step = 0; step < 400; step++) {
   if (step) match.step();
-  live.add(match.row("state"), null, match.told());
+  live.add(match.row("state"), null, match.report());
   rows.push(base64(live.newest));
   const headings = live.headings[live.frames - 1];
   recorder.add(live.newest, headings, match.row("commands"), step === 200 ? ["blue"] : []);

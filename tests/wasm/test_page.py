@@ -28,7 +28,7 @@ def page() -> str:
 
 
 def shown(script: str, folder: Path, **size: int) -> Any:  # noqa: ANN401  (any JSON)
-    """What a script returns that has the playground as `player`; the console stays empty."""
+    """Result of a script that has the playground as `player`; the console stays empty."""
     result: Shown = show(page().replace("</body>", READY), script, folder, **size)
     assert result.console == []
     return result.result
@@ -61,7 +61,7 @@ def test_each_league_plays_with_each_side(tmp_path: Path) -> None:
             for (let step = 0; step < 400; step++) player.step();
             const message = document.getElementById("message");
             const text = message.hidden ? "" : message.textContent;
-            played.push([league.id, side, player.told.steps, text]);
+            played.push([league.id, side, player.report.steps, text]);
           }
         }
         return played;

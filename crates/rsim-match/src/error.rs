@@ -30,9 +30,9 @@ pub enum MatchError {
     Argument {
         /// Name of the argument.
         name: &'static str,
-        /// What it may be.
+        /// Values that it may have.
         expected: String,
-        /// What it was.
+        /// Value that came.
         got: String,
     },
 }

@@ -1,4 +1,4 @@
-//! Who drives a team.
+//! Drivers of a team.
 
 use rsim_core::SimConfig;
 use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS, is_absent};

@@ -292,7 +292,7 @@ impl Match {
         Ok(())
     }
 
-    /// What the network of a robot's team decides from, and the means of its decision; `None` if another side
+    /// Input of the network of a robot's team, and the means of its decision; `None` if another side
     /// drives the team.
     ///
     /// # Errors

@@ -44,7 +44,7 @@ pub(crate) fn tried(act: impl FnOnce(&mut Session) -> Result<i32, Failure>) -> i
 
 /// State of the referee, in words and numbers.
 #[derive(Serialize)]
-struct Told {
+struct Report {
     command: &'static str,
     next: Option<&'static str>,
     kick: Option<&'static str>,
@@ -56,12 +56,12 @@ struct Told {
     may_touch: Vec<bool>,
     yellow_cards: [i32; 2],
     red_cards: [i32; 2],
-    events: Vec<ToldEvent>,
+    events: Vec<ReportedEvent>,
     steps: u64,
 }
 
 #[derive(Serialize)]
-struct ToldEvent {
+struct ReportedEvent {
     kind: &'static str,
     team: Option<usize>,
     robot: Option<usize>,
@@ -205,8 +205,8 @@ impl Session {
 
     pub(crate) fn describe(&mut self, handle: usize) -> Result<i32, Failure> {
         let one = self.one(handle)?;
-        let told = told(one);
-        self.write(&told)
+        let report = report(one);
+        self.write(&report)
     }
 
     pub(crate) fn configuration(&mut self, handle: usize) -> Result<i32, Failure> {
@@ -242,7 +242,7 @@ impl Session {
     }
 }
 
-fn told(one: &Match) -> Told {
+fn report(one: &Match) -> Report {
     let game = one.game();
     let named = |command| {
         let found = COMMANDS.iter().find(|(each, ..)| *each == command);
@@ -252,7 +252,7 @@ fn told(one: &Match) -> Told {
     let config = one.config();
     let team_of = |robot| if robot < config.blue.len() { Team::Blue } else { Team::Yellow };
     let places = Stage::ALL.iter().zip(Stage::NAMES);
-    Told {
+    Report {
         command: named(game.command),
         next: game.next_command.map(named),
         kick: game.kick.map(named),
@@ -269,14 +269,14 @@ fn told(one: &Match) -> Told {
             .collect(),
         yellow_cards: pair(|game, team| game.yellow_cards[team]),
         red_cards: pair(|game, team| game.red_cards[team]),
-        events: one.decisions().events.iter().map(told_event).collect(),
+        events: one.decisions().events.iter().map(reported_event).collect(),
         steps: one.steps(),
     }
 }
 
-fn told_event(event: &Event) -> ToldEvent {
+fn reported_event(event: &Event) -> ReportedEvent {
     let kind = EventKind::ALL.iter().find(|(kind, ..)| *kind == event.kind);
-    ToldEvent {
+    ReportedEvent {
         kind: kind.map_or("", |(_, _, name)| *name),
         team: event.team.map(Team::index),
         robot: event.robot,
@@ -303,7 +303,7 @@ mod tests {
     }
 
     #[test]
-    fn a_match_is_created_stepped_told_and_removed() {
+    fn a_match_is_created_stepped_described_and_removed() {
         let text = r#"{"field": "ssl_b", "blue": 2, "yellow": 3}"#;
         let one = handle(exports::create(give(text)));
         assert_eq!(exports::set_side(one, 1, 0.8, 0), 0);
@@ -314,9 +314,9 @@ mod tests {
         let numbers = exports::row(one, 0);
         assert_eq!(usize::try_from(numbers).expect("a count") * 4, exports::output_length());
         assert_eq!(exports::describe(one), 0);
-        let told: serde_json::Value = serde_json::from_str(&output()).expect("JSON");
-        assert_eq!(told["steps"], 50);
-        assert_eq!(told["may_touch"].as_array().map(Vec::len), Some(5));
+        let report: serde_json::Value = serde_json::from_str(&output()).expect("JSON");
+        assert_eq!(report["steps"], 50);
+        assert_eq!(report["may_touch"].as_array().map(Vec::len), Some(5));
         assert_eq!(exports::names(), 0);
         let names: serde_json::Value = serde_json::from_str(&output()).expect("JSON");
         assert_eq!(names["game"].as_array().map(Vec::len), Some(Game::columns().len()));

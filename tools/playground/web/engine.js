@@ -116,7 +116,7 @@ class Match {
   }
 
   /** State of the referee in words and numbers. */
-  told() {
+  report() {
     this.engine.call("describe", this.handle);
     return JSON.parse(this.engine.text());
   }

@@ -21,15 +21,15 @@ class LiveRows {
   }
 
   /** Forget all, and begin with a row. */
-  begin(row, sensed, told) {
+  begin(row, sensed, report) {
     this.rows = [];
     this.headings = [];
     this.sensedRows = [];
-    while (this.rows.length < FRAMES) this.add(row, sensed, told);
+    while (this.rows.length < FRAMES) this.add(row, sensed, report);
   }
 
   /** Add the newest row; `sensed` is null where robots know the true state. */
-  add(row, sensed, told) {
+  add(row, sensed, report) {
     const last = this.headings[this.headings.length - 1];
     const headings = Array.from({ length: this.robotCount }, (_, i) => {
       const at = this.ballSize + i * this.robotSize;
@@ -42,7 +42,7 @@ class LiveRows {
     this.headings.push(headings);
     this.sensedRows.push(sensed ?? row);
     this.sensedNumbers = sensed;
-    this.state = told;
+    this.state = report;
     if (this.rows.length > FRAMES) {
       this.rows.shift();
       this.headings.shift();

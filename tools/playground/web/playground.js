@@ -76,9 +76,9 @@ class Playground {
     if (numbers?.length) this.match.resume(numbers);
     const scene = data.scenes[league.field];
     this.scene = { ...scene, nBlue: count, robots: new Array(2 * count).fill(scene.robots[0]) };
-    this.told = this.match.told();
-    this.live = new LiveRows(this.engine.names, 2 * count, this.told);
-    this.live.begin(this.match.row("state"), this.sensed(), this.told);
+    this.report = this.match.report();
+    this.live = new LiveRows(this.engine.names, 2 * count, this.report);
+    this.live.begin(this.match.row("state"), this.sensed(), this.report);
     this.recorder = new Recorder(this.engine.names, data.steps, 2 * count);
     this.record([]);
     this.view = new FieldView($("field"), this.live, this.scene);
@@ -145,7 +145,7 @@ class Playground {
   changeConditions() {
     this.choices.conditions = { ...this.panel.values };
     this.attempt(() => this.match.change(conditionsOf(this.choices.conditions)));
-    this.live.begin(this.match.row("state"), this.sensed(), this.match.told());
+    this.live.begin(this.match.row("state"), this.sensed(), this.match.report());
   }
 
   get hasSenses() {
@@ -209,9 +209,9 @@ class Playground {
     this.stepTime += performance.now() - begun;
     this.stepped += 1;
     this.played += 1;
-    this.told = this.match.told();
-    this.live.add(this.match.row("state"), this.sensed(), this.told);
-    const goals = decided ? this.told.events.filter(({ kind }) => kind === "GOAL") : [];
+    this.report = this.match.report();
+    this.live.add(this.match.row("state"), this.sensed(), this.report);
+    const goals = decided ? this.report.events.filter(({ kind }) => kind === "GOAL") : [];
     this.record(goals.map(({ team }) => ["blue", "yellow"][team]));
     if (decided) this.listEvents();
   }
@@ -256,23 +256,23 @@ class Playground {
   }
 
   showState() {
-    const { told } = this;
-    $("goals-blue").textContent = told.score[0];
-    $("goals-yellow").textContent = told.score[1];
-    $("clock").textContent = timeLeft(told.seconds_left || (told.stage.endsWith("_PRE") ? this.data.halfSeconds : 0));
-    $("stage").textContent = stageText(told);
-    $("command").textContent = commandText(told);
+    const { report } = this;
+    $("goals-blue").textContent = report.score[0];
+    $("goals-yellow").textContent = report.score[1];
+    $("clock").textContent = timeLeft(report.seconds_left || (report.stage.endsWith("_PRE") ? this.data.halfSeconds : 0));
+    $("stage").textContent = stageText(report);
+    $("command").textContent = commandText(report);
     $("play").textContent = this.paused ? "Play" : "Pause";
-    const team = sideOf(told.command === "NORMAL_START" || told.command === "STOP" ? told.kick : told.command);
-    const stopped = !told.in_play && told.command !== "FORCE_START" && told.stage !== "POST_GAME";
+    const team = sideOf(report.command === "NORMAL_START" || report.command === "STOP" ? report.kick : report.command);
+    const stopped = !report.in_play && report.command !== "FORCE_START" && report.stage !== "POST_GAME";
     const keeps = stopped && this.league.scripted ? "disc" : null;
     this.floorMarks.marks[0] = [0, keeps, team, stopped ? team : null];
   }
 
   listEvents() {
-    const { told } = this;
-    const seconds = told.steps * STEP;
-    for (const event of told.events) {
+    const { report } = this;
+    const seconds = report.steps * STEP;
+    for (const event of report.events) {
       const time = newElement("time", "", timeLeft(seconds));
       const text = newElement("span", "", eventText(event, this.league.robots));
       $("events").prepend(newElement("li", "", time, text));
@@ -420,7 +420,7 @@ class Playground {
       const seconds = Math.max(event.timeStamp - drag.at, 1) / 1000;
       [drag.vx, drag.vy] = [(x - drag.x) / seconds, (y - drag.y) / seconds];
       [drag.x, drag.y, drag.at] = [x, y, event.timeStamp];
-      if (this.match.move(drag.body, x, y)) this.live.add(this.match.row("state"), this.sensed(), this.told);
+      if (this.match.move(drag.body, x, y)) this.live.add(this.match.row("state"), this.sensed(), this.report);
     });
     const end = (event) => {
       const { drag } = this;

@@ -35,10 +35,10 @@ function capital(text) {
 }
 
 /** Command of the referee; no text while the ball is in play. */
-function commandText(told) {
-  const { command, kick, next } = told;
-  if (told.stage === "POST_GAME") {
-    const [blue, yellow] = told.score;
+function commandText(report) {
+  const { command, kick, next } = report;
+  if (report.stage === "POST_GAME") {
+    const [blue, yellow] = report.score;
     if (blue === yellow) return "End of the match: a draw";
     return `End of the match: ${blue > yellow ? "Blue" : "Yellow"} wins`;
   }
@@ -48,12 +48,12 @@ function commandText(told) {
   }
   if (command.startsWith("BALL_PLACEMENT")) return `Ball placement ${capital(sideOf(command))}`;
   if (command.startsWith("PREPARE")) return `Prepare ${kickText(command)}`;
-  if (told.in_play) return "";
+  if (report.in_play) return "";
   return capital(kickText(command === "NORMAL_START" ? kick : command));
 }
 
-function stageText(told) {
-  return STAGES[told.stage] ?? told.stage.toLowerCase().replaceAll("_", " ");
+function stageText(report) {
+  return STAGES[report.stage] ?? report.stage.toLowerCase().replaceAll("_", " ");
 }
 
 /** An event, such as "Ball left field goal line". */
