@@ -29,7 +29,7 @@ ifneq ($(MAKELEVEL),0)
 unexport MAKEFLAGS MFLAGS
 endif
 
-.PHONY: help venv demo test check-format check-lint lint-rust lint-python check-rust check-python check-site check-libraries check-rllib check-lowest check-recipes check-installs wheels check-aarch64 format docs site physics golden soak agreement coverage bench compare clean
+.PHONY: help venv demo test check-format check-lint lint-rust lint-python check-rust check-python check-site check-libraries check-rllib check-lowest check-recipes check-installs wheels check-aarch64 wasm playground check-wasm format docs site physics golden soak agreement coverage bench compare clean
 .DEFAULT_GOAL := help
 
 help: ## list all targets
@@ -116,6 +116,23 @@ check-aarch64: ## run the golden hashes and the determinism tests of the physics
 			--package rsim-core --test all -- golden:: determinism:: || exit 1; \
 	done
 
+# WebAssembly: CONTRIBUTING.md lists the packages that it needs. The standard library is built, too, with a flag that
+# stable compilers have only under the variable RUSTC_BOOTSTRAP. LTO, which takes minutes, is left out.
+WASM := target/wasm/wasm32-unknown-unknown/release/rsim_wasm.wasm
+wasm: export CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER ?= wasm-ld-19
+wasm: export CARGO_PROFILE_RELEASE_LTO := off
+wasm: export CARGO_PROFILE_RELEASE_CODEGEN_UNITS := 16
+wasm: export RUSTC_BOOTSTRAP := 1
+wasm:
+	$(CARGO) build --locked --release --package rsim-wasm --target wasm32-unknown-unknown --target-dir target/wasm \
+		-Zbuild-std=std,panic_abort
+
+playground: wasm $(VENV)/built ## write a page that plays matches in a browser: out/playground/index.html (some minutes)
+	$(BIN)/python -m tools.playground --module $(WASM)
+
+check-wasm: playground ## compare matches in Node and Chromium with native ones bit by bit, and play the playground
+	RSOCCER_WASM=$(WASM) $(BIN)/python $(STRICT) tests/wasm
+
 format: $(VENV)/tools ## format all code
 	$(CARGO) fmt --all
 	$(BIN)/ruff check --fix
@@ -153,6 +170,7 @@ bench: $(VENV)/built ## measure the speed of this machine (some minutes; no othe
 	$(CARGO) bench --locked --package rsim-bench --bench step
 	$(BIN)/python -m benches.throughput
 	$(BIN)/python -m benches.whole_matches --store
+	$(BIN)/python -m benches.training_speed --store
 
 BEFORE ?= main
 compare: $(VENV)/built ## compare the speed of a step with that of an earlier commit, BEFORE=main

@@ -50,6 +50,8 @@ OF_OTHERS = {
     "fixture(params=": "pytest",
     'scope="module", params=': "pytest",
     "share_params=True": "TorchRL",
+    "share_params=False": "TorchRL",
+    ".share_params": "TorchRL",
     " params=loss.critic_network_params": "TorchRL",
     "target_params=loss.target_critic_network_params": "TorchRL",
     "(SSL: defense area)": "the rules of the SSL",

@@ -27,7 +27,7 @@ from tools.library_speed import libraries
 from tools.paths import DOCS, ROOT
 from tools.protocols import codes, fields
 from tools.site import task_docs
-from tools.speed import feature, instructions, speed, summary, whole_matches
+from tools.speed import feature, instructions, speed, summary, training_speed, whole_matches
 
 README = ROOT / "README.md"
 WRITTEN = (
@@ -270,6 +270,7 @@ PARTS: dict[str, Callable[[], str]] = {
     "speed_feature": feature,
     "speed_summary": summary,
     "tasks": tasks,
+    "training_speed": training_speed,
     "vsss_rules": referee_tables.vsss_rules,
     "whole_matches": whole_matches,
 }

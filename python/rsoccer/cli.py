@@ -19,6 +19,8 @@ EXTRAS = {
     "imageio_ffmpeg": "render",
     "matplotlib": "train",
     "minari": "data",
+    "onnx": "onnx",
+    "onnxruntime": "onnx",
     "pygame": "render",
     "safetensors": "train",
     "tensorboard": "train",

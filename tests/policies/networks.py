@@ -1,10 +1,15 @@
 """Networks and their inputs for tests."""
 
+from itertools import pairwise
+
 import numpy as np
 
+from rsoccer.history import ObservationStack
 from rsoccer.policies.base import PolicyInput
+from rsoccer.policies.heads import CHOOSING
 from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import FORMAT
+from rsoccer.registry import make_task
 from rsoccer.task import Task
 
 Arrays = dict[str, np.ndarray]
@@ -55,3 +60,39 @@ def random_observations(n: int = 4, robots: int = 3, seed: int = 1) -> np.ndarra
 def network_input(observations: np.ndarray) -> PolicyInput:
     n, robots = observations.shape[:2]
     return PolicyInput((n, robots, ACTION), None, observations.astype(np.float32))
+
+
+def random_network(kind: str = "gaussian", activation: str = "tanh", history: int = 1) -> Network:
+    """A network of random weights for VSS-v0 with a normalization, with some kind of head.
+
+    Args:
+        kind: a head, or a kind of deviation of a squashed Gaussian.
+        activation: activation between the layers.
+        history: observations in a stacked one.
+    """
+    task = make_task("VSS-v0", discrete=kind in CHOOSING)
+    rng = np.random.default_rng(5)
+    deviations = {"exp": "exp -20 2", "tanh": "tanh -5 2", "softplus": "softplus 0.54 0.01 0.0001"}
+    table = task.action_table
+    outputs = task.action_size * 2 if kind in deviations else task.action_size
+    size = ObservationStack.of(task, history).size
+    sizes = [size, 32, 16, outputs if table is None else len(table)]
+    return Network.from_layers(
+        task,
+        [(rng.normal(0.0, a**-0.5, (b, a)), rng.normal(0.0, 0.3, b)) for a, b in pairwise(sizes)],
+        [0.3, 0.4] if kind in ("gaussian", "squashed") else None,
+        activation=activation,
+        head="squashed" if kind in deviations else kind,
+        deviation=deviations.get(kind),
+        history=history,
+        action_repeat=2,
+        mean=rng.normal(0.0, 0.2, size),
+        std=rng.uniform(0.3, 1.5, size),
+        clip=3.0,
+    )
+
+
+def task_observations(network: Network, n: int = 6) -> np.ndarray:
+    """Observations (n, 3, o) from -1 to 1 for a network."""
+    rng = np.random.default_rng(2)
+    return rng.uniform(-1.0, 1.0, (n, 3, network.observation_size)).astype(np.float32)

@@ -130,14 +130,17 @@ def test_modules_of_torch_become_a_policy() -> None:
 @pytest.mark.parametrize(
     "modules",
     [
-        [nn.Linear(3, 2), nn.ReLU(), nn.Linear(2, 2)],
+        [nn.Linear(3, 2), nn.GELU(), nn.Linear(2, 2)],
+        [nn.Linear(3, 2), nn.ELU(alpha=0.5), nn.Linear(2, 2)],
+        [nn.Linear(3, 2), nn.LayerNorm(2), nn.Tanh(), nn.Linear(2, 2)],
         [nn.Linear(3, 2), nn.Tanh(), nn.Linear(2, 2), nn.Tanh()],
         [nn.Linear(3, 2), nn.Linear(2, 2)],
         [nn.Linear(3, 2, bias=False)],
     ],
 )
-def test_modules_other_than_linear_and_tanh_are_refused(modules: list[nn.Module]) -> None:
-    with pytest.raises(ValueError, match="Linear with bias and Tanh in turn, got Linear"):
+def test_other_modules_are_refused(modules: list[nn.Module]) -> None:
+    message = "Linear with bias and one of Tanh, ReLU, .* in turn, got Linear"
+    with pytest.raises(ValueError, match=message):
         Network.from_layers(make_task("VSS-v0"), modules)
 
 
@@ -149,3 +152,24 @@ def test_weights_that_do_not_fit_are_refused() -> None:
         Network.from_layers(task, [(np.ones((2, 3)), np.ones(2))])
     with pytest.raises(ValueError, match="action_std"):
         Network.from_layers(task, [(np.ones((2, task.layout.size)), np.ones(2))], [0.1])
+
+
+@pytest.mark.parametrize("module", [nn.Tanh, nn.ReLU, nn.LeakyReLU, nn.ELU, nn.SiLU])
+def test_activations_are_those_of_torch(module: type[nn.Module]) -> None:
+    task = make_task("VSS-v0")
+    modules = nn.Sequential(
+        nn.Sequential(nn.Linear(task.layout.size, 64), module(), nn.Linear(64, 64), module()),
+        nn.Linear(64, task.action_size),
+    )
+    network = Network.from_layers(task, modules)
+    observations = torch.rand(32, task.layout.size) * 8 - 4
+    expected = modules(observations).clamp(-1, 1).detach()
+    np.testing.assert_allclose(network.mean_actions(observations.numpy()), expected, atol=2e-6)
+    with pytest.raises(ValueError, match="activation: expected"):
+        Network.from_layers(task, modules, activation="gelu")
+
+
+def test_two_kinds_of_activations_are_refused() -> None:
+    modules = [nn.Linear(3, 2), nn.Tanh(), nn.Linear(2, 2), nn.ReLU(), nn.Linear(2, 2)]
+    with pytest.raises(ValueError, match="expected one kind of activation, got relu, tanh"):
+        Network.from_layers(make_task("VSS-v0"), modules)

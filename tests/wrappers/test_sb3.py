@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 import rsoccer
+from rsoccer.replay import Recorder
 from tests.simulators import Still
 from tests.single_learner import TASKS
 
@@ -263,8 +264,38 @@ def test_attributes_and_methods_are_by_row() -> None:
         envs.env_method("reset")
     with pytest.raises(TypeError, match="state: expected no arguments"):
         envs.env_method("state", 1)
-    with pytest.raises(AttributeError, match="task: attributes of matches cannot be set"):
+    with pytest.raises(AttributeError, match="task: attributes of matches cannot be set, except"):
         envs.set_attr("task", None)
+
+
+def test_options_change_while_matches_run() -> None:
+    envs = many("VSSMulti-v0", 2)
+    envs.reset()
+    zeros = np.zeros((6, 2), np.float32)
+    envs.set_attr("max_steps", 2)
+    assert [envs.step(zeros)[2].all() for _ in range(4)] == [False, True, False, True]
+    envs.set_attr("controllers", {"yellow": "zero"})
+    envs.step(zeros)
+    assert not envs.matches.play.actions[:, 3:].any()
+    row = envs.frame.rows[0].copy()
+    envs.matches.start_from(row)
+    envs.step(zeros)
+    np.testing.assert_array_equal(envs.frame.rows, [row, row])
+    with pytest.raises(ValueError, match=r"expected all 6 rows, .* got \[0, 1\]"):
+        envs.set_attr("max_steps", 3, indices=[0, 1])
+    with pytest.raises(ValueError, match="expected ones that leave sizes"):
+        envs.set_attr("n_yellow", 2)
+
+
+def test_a_recorder_runs_beside_a_training(tmp_path: Path) -> None:
+    envs = many("VSS-v0", 2)
+    recorder = Recorder(envs.matches, 1, attach=True)
+    model = stable_baselines3.PPO("MlpPolicy", envs, n_steps=50, batch_size=50, device="cpu")
+    model.learn(100)
+    lengths = [each.stop - each.start for each in recorder.replay().episodes]
+    assert len(lengths) > 1
+    assert max(lengths) <= MAX_STEPS + 1
+    assert recorder.replay().save_html(tmp_path / "match.html").exists()
 
 
 def test_a_notebook_shows_the_first_match() -> None:

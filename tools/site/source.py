@@ -12,7 +12,7 @@ from typing import Final
 import rsoccer
 from benches.result_files import RESULTS
 from tools.paths import DOCS, ROOT
-from tools.site import api, notebooks, tasks
+from tools.site import api, notebooks, playground, tasks
 
 TOP: Final = {
     "ARCHITECTURE.md": "architecture.md",
@@ -44,6 +44,8 @@ def lay_out(folder: Path, rust: bool = True) -> None:
     shutil.copytree(DOCS, folder)
     for page in folder.rglob("*.md"):
         page.write_text(linked(page.read_text(), page.relative_to(folder)))
+    shown = folder / "playground.md"
+    shown.write_text(playground.shown(shown.read_text(), playground.PAGE.is_file()))
     for name, target in TOP.items():
         (folder / target).write_text(linked((ROOT / name).read_text(), Path(name)))
     pictures_only = shutil.ignore_patterns("*.csv", "*.json", "*.md")

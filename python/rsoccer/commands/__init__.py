@@ -12,7 +12,9 @@ from tyro.conf import subcommand
 from rsoccer.commands.benchmark import Benchmark
 from rsoccer.commands.convert import Convert
 from rsoccer.commands.distill import CommandDistillArgs, Distill
+from rsoccer.commands.drive import Drive
 from rsoccer.commands.evaluate import Evaluate
+from rsoccer.commands.export import Export
 from rsoccer.commands.identify import Identify
 from rsoccer.commands.imports import imported
 from rsoccer.commands.list import List
@@ -49,6 +51,7 @@ def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at
         | Annotated[Distill, subcommand("distill", default=distill_default)]
         | Annotated[Evaluate, subcommand("evaluate")]
         | Annotated[Tournament, subcommand("tournament")]
+        | Annotated[Export, subcommand("export")]
         | Annotated[Benchmark, subcommand("benchmark")]
         | Annotated[Record, subcommand("record")]
         | Annotated[Identify, subcommand("identify")]
@@ -57,6 +60,7 @@ def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at
         | Annotated[Play, subcommand("play")]
         | Annotated[Convert, subcommand("convert")]
         | Annotated[Serve, subcommand("serve")]
+        | Annotated[Drive, subcommand("drive")]
     )
 
 

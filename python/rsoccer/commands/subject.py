@@ -14,7 +14,7 @@ from rsoccer.human.teams import script_of
 from rsoccer.lineup import DEFAULT_TASK, task_for
 from rsoccer.policies import trained
 from rsoccer.policies.own_code import short_name
-from rsoccer.policies.policy_file import SUFFIX
+from rsoccer.policies.policy_file import SUFFIX, SUFFIXES
 from rsoccer.replay.replay import SUFFIX as REPLAY_SUFFIX
 from rsoccer.task import Task
 
@@ -77,7 +77,7 @@ def check_policy_names(names: Iterable[str | None]) -> None:
     """
     for name in names:
         ending = "" if name is None else Path(name).suffix
-        if name is None or not ending or SUFFIX in name:
+        if name is None or not ending or any(end in name for end in SUFFIXES):
             continue
         if policies.is_registered(name) or policies.is_module_text(name):
             continue
@@ -86,8 +86,8 @@ def check_policy_names(names: Iterable[str | None]) -> None:
                 f"policy: expected a policy, got the replay {name}: rsoccer watch plays it"
             )
         raise ValueError(
-            f"policy: expected the name of a policy or a task, a policy file (*{SUFFIX}), or in "
-            f"rsoccer watch a replay (*{REPLAY_SUFFIX}), got {name}"
+            f"policy: expected the name of a policy or a task, a policy file (*{SUFFIX}, *.onnx), "
+            f"or in rsoccer watch a replay (*{REPLAY_SUFFIX}), got {name}"
         )
 
 

@@ -9,8 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from rsoccer.arrays import Array
+from rsoccer.arrays import Array, Floats
+from rsoccer.controllers import Controllers, resolve
+from rsoccer.frame import Frame
 from rsoccer.matches import Matches
+from rsoccer.policies import Policy
 from rsoccer.sources import is_shared
 from rsoccer.task import Task
 
@@ -54,13 +57,26 @@ class EnvMatches(Matches):
         """True before the first reset of any match."""
         return not self._begun.any()
 
+    def change_controllers(self, controllers: Controllers) -> None:
+        """Replace policies while the matches run, as `Matches.change_controllers`.
+
+        Args:
+            controllers: policies by robot, team or "all", for robots that do not learn.
+        """
+        super().change_controllers(controllers)
+        before: Controllers = self._settings.get("controllers") or {}
+        by_robot = resolve(self.task, {**resolve(self.task, before), **_policies_by_robot(self)})
+        self._settings = {**self._settings, "controllers": by_robot}
+
     def with_seed(self, seed: int) -> EnvMatches:
         """Return new matches with the same arguments and another seed.
 
         Args:
             seed: seed of the first match, at least 0.
         """
-        return EnvMatches(self.task, self.worlds, seed, **self._settings)
+        matches = EnvMatches(self.task, self.worlds, seed, **self._settings)
+        matches._start_rows = self._start_rows
+        return matches
 
     def check_running(self) -> None:
         """Refuse a step that needs a reset first.
@@ -107,7 +123,7 @@ class EnvMatches(Matches):
                 f"{simulator!r}"
             )
         state = None if self.fresh else self.state_dict()
-        return _resumed, (self.task, self.worlds, self._settings, state)
+        return _resumed, (self.task, self.worlds, self._settings, state, self._start_rows)
 
 
 class SeededCopies:
@@ -124,10 +140,27 @@ class SeededCopies:
                 self._matches = replaced.with_seed(random_seed(self))
 
 
-class SingleLearner:
-    """Properties that environments with one learner have."""
+class PublicMatches:
+    """The matches of an environment, which its users may record, read and change."""
 
     _matches: EnvMatches
+
+    @property
+    def matches(self) -> Matches:
+        """The matches: for recorders, `change_options`, `change_controllers` and `start_from`.
+
+        The environment resets and steps them.
+        """
+        return self._matches
+
+    @property
+    def frame(self) -> Frame:
+        """State of all matches (n, ...), to be read only, valid until the next step."""
+        return self._matches.frame
+
+
+class SingleLearner(PublicMatches):
+    """Properties that environments with one learner have."""
 
     @property
     def task(self) -> Task:
@@ -138,6 +171,12 @@ class SingleLearner:
     def learner(self) -> str:
         """Name of the robot that learns, such as "blue_0"."""
         return str(self._matches.agents[0])
+
+
+def _policies_by_robot(matches: Matches) -> dict[str, Policy]:
+    """Policies of all robots that do not learn."""
+    robots = matches.task.robots
+    return {robots[i]: group.policy for group in matches.assignment.groups for i in group.robots}
 
 
 def random_seed(env: Any) -> int:  # noqa: ANN401  (gymnasium.Env or VectorEnv)
@@ -151,11 +190,15 @@ def random_seed(env: Any) -> int:  # noqa: ANN401  (gymnasium.Env or VectorEnv)
 
 
 def _resumed(
-    task: Task, worlds: int, settings: Mapping[str, Any], state: Mapping[str, Array] | None
+    task: Task,
+    worlds: int,
+    settings: Mapping[str, Any],
+    state: Mapping[str, Array] | None,
+    start_rows: Floats | None = None,
 ) -> EnvMatches:
     """Matches that continue from a state; without one, new matches with a random seed."""
-    if state is None:
-        return EnvMatches(task, worlds, **settings)
-    matches = EnvMatches(task, worlds, 0, **settings)
-    matches.load_state_dict(state)
+    matches = EnvMatches(task, worlds, None if state is None else 0, **settings)
+    matches._start_rows = start_rows
+    if state is not None:
+        matches.load_state_dict(state)
     return matches

@@ -21,7 +21,7 @@ from rsoccer import spaces
 from rsoccer.arrays import Floats
 from rsoccer.controllers import Controllers
 from rsoccer.envs import agent_dicts
-from rsoccer.envs.env_matches import EnvMatches
+from rsoccer.envs.env_matches import EnvMatches, PublicMatches
 from rsoccer.envs.options import initial_rows, require_learners, reset_options
 from rsoccer.envs.viewer import ViewedMatch, Viewer, metadata
 from rsoccer.randomization import Ranges
@@ -96,7 +96,7 @@ def parallel_env(
     )
 
 
-class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
+class SoccerParallelEnv(ViewedMatch, PublicMatches, ParallelEnv[str, Floats, Any]):
     """One match of a task as a PettingZoo ParallelEnv; arguments and results are by agent name.
 
     Spaces: observations are Box (o,) float32. Actions are Box (action,) float32 from -1 to 1;

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rsoccer.arrays import Array, Floats
-from rsoccer.envs.env_matches import EnvMatches
+from rsoccer.envs.env_matches import EnvMatches, PublicMatches
 from rsoccer.envs.viewer import Image, Viewer
 from rsoccer.matches import Matches
 from rsoccer.task import Task
@@ -100,7 +100,7 @@ class RobotRows:
         return every.reshape(-1)
 
 
-class RobotRowsEnv:
+class RobotRowsEnv(PublicMatches):
     """Properties, states and images of environments with a row for each robot.
 
     Attributes:

@@ -25,7 +25,7 @@ from rsoccer.lineup import task_for
 from rsoccer.policies import PolicyLike, check_policy_like, is_registered, make_policy, name_of
 from rsoccer.policies.base import Policy
 from rsoccer.policies.labels import labels
-from rsoccer.policies.policy_file import SUFFIX
+from rsoccer.policies.policy_file import SUFFIXES
 from rsoccer.randomization import Ranges
 from rsoccer.registry import as_task
 from rsoccer.sources import SensingSource, SimulatorSource
@@ -217,7 +217,7 @@ def _identity(policy: PolicyLike) -> object:
     if isinstance(policy, Policy):
         return id(policy)
     text = os.fspath(policy)
-    return os.path.realpath(text) if SUFFIX in text else text
+    return os.path.realpath(text) if any(end in text for end in SUFFIXES) else text
 
 
 def _fitting(policy: PolicyLike, task: Task) -> Policy:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from typing import Any, Final
+from typing import Any, Final, Protocol
 
 import numpy as np
 from gymnasium.spaces import Box
@@ -22,7 +22,7 @@ from rsoccer.controllers import Controllers, assign
 from rsoccer.frame import Frame
 from rsoccer.global_state import StateEncoder
 from rsoccer.history import ObservationStack
-from rsoccer.matches import result_checks
+from rsoccer.matches import changes, result_checks
 from rsoccer.matches.consistency import Consistency
 from rsoccer.matches.learners import Learners
 from rsoccer.matches.match_state import MatchState
@@ -55,6 +55,23 @@ Indices = NDArray[np.intp]
 _NO_WORLDS: Final = np.empty(0, np.intp)
 Seed = int | Sequence[int | None] | None
 """Seed of the first world, or one seed per world; None: random streams continue."""
+
+
+class Listener(Protocol):
+    """An object that follows the steps of matches, see `Matches.attach`."""
+
+    world: int
+    """Index of the world whose episodes it follows."""
+
+    def begin(self) -> None:
+        """Take note that an episode of the world has begun."""
+
+    def add(self, outcome: Outcome) -> None:
+        """Take note of a step of all worlds.
+
+        Args:
+            outcome: result of the step.
+        """
 
 
 class Matches:
@@ -190,6 +207,8 @@ class Matches:
         self._observer_terms: Mapping[str, Floats] = {}
         self._waited = _NO_WORLDS  # in the last step
         self._step_calls = 0  # for error messages
+        self._start_rows: Floats | None = None
+        self._listeners: list[Listener] = []
         self._consistency = Consistency()
         config = self.task.config.with_sensing(simulated(self._sensing))
         self._simulator = make_simulator(simulator, config, worlds, self._threads)
@@ -379,6 +398,76 @@ class Matches:
         self.play.expire_views()
         self._consistency.repair()
 
+    def change_options(self, **options: Any) -> None:  # noqa: ANN401
+        """Change options of the task while the matches run, for curricula.
+
+        Rewards and time limits hold from the next step on, starts and rules' numbers from the next
+        episode of each world on, automatic resets included.
+
+        Args:
+            **options: options of the task, such as `reward_weights`, `max_steps` or `ball_speed`.
+
+        Raises:
+            TypeError: an unknown option, or one of the wrong type. Nothing has changed.
+            ValueError: a value out of range, or an option on which sizes, robots, physics or
+                controllers depend. Nothing has changed.
+        """
+        task = changes.changed_task(self.task, options)
+        self.task, self._rules = task, task.rules
+
+    def change_controllers(self, controllers: Controllers) -> None:
+        """Replace policies while the matches run; their memory begins anew.
+
+        Args:
+            controllers: policies by robot ("yellow_1"), team ("yellow") or "all", for robots that
+                do not learn; others keep theirs. Robots that share a policy get the same one.
+
+        Raises:
+            TypeError: something that is not a policy. Nothing has changed.
+            ValueError: an unknown robot, one that learns, a policy that does not fit the task, or
+                one that observes in the place of one that does not. Nothing has changed.
+        """
+        changes.change_controllers(self.task, self.assignment, controllers)
+        groups = self.assignment.groups
+        self._commanding = [group for group in groups if isinstance(group.policy, CommandPolicy)]
+
+    def start_from(self, rows: Floats | None) -> None:
+        """Set the states in which episodes begin from now on, after automatic resets too.
+
+        Each episode draws one of them, with the random stream of its world.
+
+        Args:
+            rows: (row,) one state, or (m, row) several, in the layout of `Frame.rows`; None for
+                those of the task.
+
+        Raises:
+            TypeError: not an array of floats. Nothing has changed.
+            ValueError: a wrong shape, bodies that overlap or are outside, or a simulator that
+                cannot place bodies. Nothing has changed.
+        """
+        if rows is not None:
+            self._starts.check_rows()
+            rows = changes.start_rows(self.task, rows)
+        self._start_rows = rows
+
+    def attach(self, listener: Listener) -> None:
+        """Let an object follow each step, before worlds reset, and each begin of an episode.
+
+        Args:
+            listener: such as a `Recorder`.
+        """
+        if listener not in self._listeners:
+            self._listeners.append(listener)
+
+    def detach(self, listener: Listener) -> None:
+        """Let an object follow no further steps.
+
+        Args:
+            listener: one that `attach` got; others are ignored.
+        """
+        if listener in self._listeners:
+            self._listeners.remove(listener)
+
     def take_over(self, state: Mapping[str, Array], seed: Seed = None) -> Floats:
         """Continue from a state of matches of the same task with other controllers.
 
@@ -556,6 +645,8 @@ class Matches:
             self._begin(self._waited)
         final = self._observed()
         outcome.observations = outcome.final_observations = final
+        for listener in self._listeners:
+            listener.add(outcome)
         ended = outcome.ended
         if not np.count_nonzero(ended):
             return
@@ -584,7 +675,7 @@ class Matches:
         """Begin episodes in k worlds, from `rows` (k, row) or from the task's initial states."""
         streams = next_streams(self._streams(), worlds, seeds)
         if rows is None and self._starts.can_place:
-            rows = self.task.get_initial_positions_frame(streams["start"]).rows
+            rows = self._drawn_start(streams["start"])
         part = self._new_play(len(worlds), streams["task"])
         if "senses" in streams:
             part.senses = self._new_senses(part.frame, streams["senses"])
@@ -606,6 +697,21 @@ class Matches:
             self._variation.put(worlds, streams["randomization"])
         if len(worlds) == self.worlds:
             self._consistency.repair()
+        self._announce(worlds)
+
+    def _drawn_start(self, rng: WorldRng) -> Floats:
+        """Initial states (k, row) for k worlds: the task's own, or drawn from those given."""
+        rows = self.task.get_initial_positions_frame(rng).rows
+        if self._start_rows is None:
+            return rows
+        drawn: Floats = self._start_rows[rng.integers(len(self._start_rows))]
+        return drawn
+
+    def _announce(self, worlds: Indices) -> None:
+        """Let those who follow these worlds know that episodes have begun."""
+        for listener in self._listeners:
+            if listener.world in worlds:
+                listener.begin()
 
     def _observe_start(self, worlds: Indices, part: Play) -> None:
         """Compute the first observations of worlds that the simulator has just placed."""

@@ -31,12 +31,13 @@ from rsoccer.policies import names
 from rsoccer.policies.base import Policy, PolicyInput
 from rsoccer.policies.names import list_policies, list_policies_with_skill, register_policy
 from rsoccer.policies.own_code import is_module_text, make_from_module
-from rsoccer.policies.policy_file import SUFFIX
+from rsoccer.policies.policy_file import ONNX_SUFFIX, SUFFIX, SUFFIXES
 from rsoccer.registry import as_task, make_task
 from rsoccer.task import Task
 
 if TYPE_CHECKING:
     from rsoccer.policies.network import Network
+    from rsoccer.policies.onnx_policy import OnnxPolicy
 
 __all__ = ["Policy", "PolicyInput", "list_policies", "list_policies_with_skill"]
 __all__ += ["PolicyLike", "check_policy_like", "file_of", "is_module_text", "is_registered"]
@@ -78,8 +79,9 @@ def make_policy(policy: PolicyLike, task: Task | str) -> Policy:
     """Make a policy for the robots of a task.
 
     Args:
-        policy: a policy, which is returned as it is; a name; the path of a policy file; or
-            "module:name" of a policy, its class, or a function of the task that makes one.
+        policy: a policy, which is returned as it is; a name; the path of a policy file or of an
+            ONNX file; or "module:name" of a policy, its class, or a function of the task that makes
+            one.
             "best" is the trained policy of the task, see `rsoccer.policies.trained`.
             "best:robust" is the one that has learned with late and noisy senses. "scripted:0.5"
             sets a skill. "policy.safetensors:mean", "best:sample" and "best:robust:mean" choose
@@ -109,7 +111,7 @@ def make_policy(policy: PolicyLike, task: Task | str) -> Policy:
         if is_module_text(text):
             policy = make_from_module(text, task)
         elif not is_registered(text):
-            policy = _load(text)
+            policy = _load(text, task)
         elif name == "best":
             policy = _make_best(task, detail if colon else None)
         else:
@@ -204,12 +206,17 @@ def file_of(policy: str) -> Path | None:
     return Path(_split_mode(policy)[0])
 
 
-def _load(text: str) -> Network:
+def _load(text: str, task: Task | None = None) -> Network | OnnxPolicy:
     """A trained policy from its path, which a mode may follow."""
     path, mode = _split_mode(text)
-    if not (path.endswith(SUFFIX) or os.path.isfile(path)):
+    if not (path.endswith(SUFFIXES) or os.path.isfile(path)):
         raise ValueError(f"unknown policy {text!r}: {_expected(path)}")
-    from rsoccer.policies.network import Network  # scripts do not need the file format
+    # Scripts do not need the formats of files.
+    if path.endswith(ONNX_SUFFIX):
+        from rsoccer.policies.onnx_policy import OnnxPolicy
+
+        return OnnxPolicy.load(path, mode, task)
+    from rsoccer.policies.network import Network
 
     return Network.load(path, mode)
 
@@ -220,9 +227,9 @@ def _expected(path: str) -> str:
     if inside.is_file():
         return f"it is a folder; the policy file in it is {inside}"
     return (
-        f"expected one of {list_policies()}, the path of a policy file (*{SUFFIX}), or MODULE:NAME "
-        "of your own code; a policy of your own has a name after the import of the module that "
-        "registers it, as with --import MODULE"
+        f"expected one of {list_policies()}, the path of a policy file (*{SUFFIX}, "
+        f"*{ONNX_SUFFIX}), or MODULE:NAME of your own code; a policy of your own has a name after "
+        "the import of the module that registers it, as with --import MODULE"
     )
 
 
@@ -231,7 +238,7 @@ def _split_mode(text: str) -> tuple[str, str | None]:
     from rsoccer.policies.network import MODES
 
     path, colon, mode = text.rpartition(":")
-    if not colon or os.path.exists(text) or text.endswith(SUFFIX):
+    if not colon or os.path.exists(text) or text.endswith(SUFFIXES):
         return text, None
-    known = mode in MODES or path.endswith(SUFFIX)
+    known = mode in MODES or path.endswith(SUFFIXES)
     return (path, mode) if known else (text, None)

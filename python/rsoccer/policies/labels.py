@@ -9,7 +9,7 @@ from itertools import count
 from pathlib import Path
 
 from rsoccer.policies import PolicyLike, is_registered, name_of
-from rsoccer.policies.policy_file import SUFFIX
+from rsoccer.policies.policy_file import ONNX_SUFFIX, SUFFIX
 
 GENERIC = "policy"
 """Name of the policy file in every run's folder, which the folder's name replaces."""
@@ -54,7 +54,7 @@ def _is_free(label: str, used: Counter[str], reserved: Collection[str]) -> bool:
 
 def _short(name: str) -> str:
     """Short name of one policy."""
-    path, ending, mode = name.partition(SUFFIX)
+    path, ending, mode = name.partition(SUFFIX if SUFFIX in name else ONNX_SUFFIX)
     if not ending:
         return name
     stem = os.path.basename(path)

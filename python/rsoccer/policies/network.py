@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Self
 
@@ -13,15 +13,18 @@ from numpy.typing import ArrayLike, NDArray
 
 from rsoccer import checks, option_values
 from rsoccer.arrays import Array, Floats
-from rsoccer.history import ObservationStack
 from rsoccer.policies import policy_file, training_conditions
+from rsoccer.policies.activations import activation as activation_of
+from rsoccer.policies.fits import check_fits
+from rsoccer.policies.heads import CHOOSING, Deviation
 from rsoccer.policies.held_actions import HeldActions
+from rsoccer.policies.layers import read_layers
 from rsoccer.registry import as_task, options_of
 
 if TYPE_CHECKING:
-    from torch import nn
-
     from rsoccer._core import Sensing
+    from rsoccer.policies.layers import Layers
+    from rsoccer.policies.torch_network import TorchNetwork
     from rsoccer.randomization import Ranges
     from rsoccer.rng import WorldRng
     from rsoccer.sources import SensingSource
@@ -31,17 +34,18 @@ SINGLE_THREAD_SIZE: Final = 2**18
 """Multiplications in a matrix product up to which OpenBLAS uses one thread."""
 
 MODES: Final = ("sample", "mean")
-"""Action selection of a network: drawn from its Gaussian, or the mean of the Gaussian."""
+"""Action selection of a network: drawn from its distribution, or the most likely action."""
 
 
 class Network(HeldActions):
     """A trained network, run in NumPy; PyTorch is needed for training only.
 
-    In mode "sample" each decision is drawn from the Gaussian of the training, with the random
-    stream of each world. Mode "mean" is deterministic; a robot may then stay stuck where noise
-    would free it. With `action_repeat` k the network decides at every k-th control step and holds
-    its action in between, as in training. With a `history` it stacks its last observations and
-    actions itself, so it plays wherever a network without one does.
+    In mode "sample" each decision is drawn from the distribution of the training, with the random
+    stream of each world. Mode "mean" is deterministic: the mean of a Gaussian, the most likely one
+    of discrete choices. A robot may then stay stuck where noise would free it. With `action_repeat`
+    k the network decides at every k-th control step and holds its action in between, as in
+    training. With a `history` it stacks its last observations and actions itself, so it plays
+    wherever a network without one does.
 
     Matrix products are not bit-equal between batch sizes, so actions differ by about 1e-6 between
     batch sizes. For reproducible numbers play in chunks of one size, as `rsoccer.evaluate` does.
@@ -61,7 +65,7 @@ class Network(HeldActions):
         Args:
             arrays: weights and normalization by name, see `rsoccer.policies.policy_file`.
             metadata: text by key, see the same module.
-            mode: "sample" or "mean"; None is "sample" if there is an `action_std`, else "mean".
+            mode: "sample" or "mean"; None is "sample" if the head has a distribution, else "mean".
 
         Raises:
             ValueError: arrays, metadata or mode that do not fit the format or each other.
@@ -72,9 +76,10 @@ class Network(HeldActions):
         training_conditions.describe(self.metadata)
         self.layers = policy_file.read_layers(arrays)
         self.mean, self.std = policy_file.read_normalizer(arrays, self.observation_size)
-        self.action_std = policy_file.read_action_std(arrays, self.action_size)
+        self.head = policy_file.read_head(arrays, self.metadata, len(self.layers[-1][1]))
+        self._activation = activation_of(self.activation)
         self.stack = policy_file.read_stack(self.metadata, self.observation_size, self.action_size)
-        self.mode = _checked_mode(mode, self.action_std)
+        self.mode = self._checked_mode(mode)
         for name, size in self._sizes().items():
             if self.metadata.get(name) != str(size):
                 raise ValueError(
@@ -86,9 +91,13 @@ class Network(HeldActions):
     def from_layers(
         cls,
         task: Task | str,
-        layers: Iterable[tuple[ArrayLike, ArrayLike] | nn.Module],
+        layers: Layers,
         action_std: ArrayLike | None = None,
         *,
+        activation: str | None = None,
+        head: str = "gaussian",
+        deviation: Deviation | str | None = None,
+        action_table: ArrayLike | None = None,
         action_repeat: int = 1,
         history: int = 1,
         mean: ArrayLike = 0.0,
@@ -101,13 +110,23 @@ class Network(HeldActions):
     ) -> Self:
         """Return a network of weights that another program has trained.
 
+        `rsoccer.policies.libraries` makes networks of whole models of libraries.
+
         Args:
             task: the task of the training, such as `Matches.task`, or its name.
             layers: weight (out, in) and bias (out,) of each linear layer, from the observation
-                to the action, with tanh between them; or the modules of torch, `nn.Linear` and
-                `nn.Tanh` in turn, such as an `nn.Sequential`.
+                to the action, with the activation between them; or the modules of torch,
+                `nn.Linear` and an activation in turn, such as an `nn.Sequential`.
             action_std: (action,) standard deviation of the actions; None for a policy without
-                noise.
+                noise, or with one that the network computes.
+            activation: between the layers: "tanh", "relu", "leaky_relu", "elu" or "silu"; None is
+                that of the modules, or tanh.
+            head: meaning of the outputs of the last layer: "gaussian", "squashed", "categorical"
+                or "greedy", see `rsoccer.policies.heads`.
+            deviation: standard deviation as a function of the second half of the outputs of the
+                last layer, a `Deviation` or its text, such as "exp -20 2"; None without.
+            action_table: (choices, action) actions that "categorical" and "greedy" choose from;
+                None for those of the task.
             action_repeat: control steps for which an action is held, at least 1.
             history: observations in each stacked one that it reads, at least 1, as for `Matches`.
             mean: (o,) or a number: subtracted from observations.
@@ -126,7 +145,9 @@ class Network(HeldActions):
                 format or the task.
         """
         task = as_task(task)
-        parts = _weights_and_biases(layers)
+        parts, activation = read_layers(layers, activation)
+        if action_table is None and head in CHOOSING:
+            action_table = task.action_table
         inputs = parts[0][0].shape[-1:]
         arrays: dict[str, Array] = {
             name: np.broadcast_to(np.asarray(value, np.float32), inputs).copy()
@@ -135,17 +156,22 @@ class Network(HeldActions):
         for index, (weight, bias) in enumerate(parts):
             arrays[f"layers.{index}.weight"] = weight
             arrays[f"layers.{index}.bias"] = bias
-        if action_std is not None:
-            arrays["action_std"] = np.asarray(action_std, np.float32)
+        for name, array in (("action_std", action_std), ("action_table", action_table)):
+            if array is not None:
+                arrays[name] = np.asarray(array, np.float32)
+        text = deviation.text if isinstance(deviation, Deviation) else deviation
+        beyond = {"head": None if head == "gaussian" else head, "deviation": text}
+        kept = {name: value for name, value in beyond.items() if value is not None}
         metadata = {
-            "format": policy_file.FORMAT,
+            "format": policy_file.HEAD_FORMAT if kept else policy_file.FORMAT,
             "task": task.name if task_name is None else task_name,
             "layout": task.layout.text,
             "observation_size": str(arrays["mean"].size),
-            "action_size": str(parts[-1][1].size),
-            "activation": "tanh",
+            "action_size": str(_action_size(arrays, parts[-1][1].size, deviation)),
+            "activation": activation,
             "clip": f"{clip:g}",
             "action_repeat": str(action_repeat),
+            **kept,
         }
         if checks.integer("history", history, 1) > 1:
             metadata["history"] = str(history)
@@ -172,7 +198,17 @@ class Network(HeldActions):
     @property
     def action_size(self) -> int:
         """Numbers in an action."""
-        return int(self.layers[-1][0].shape[0])
+        return self.head.action_size
+
+    @property
+    def action_std(self) -> Floats | None:
+        """(action,) standard deviation of the actions; None if the network computes it, or none."""
+        return self.head.action_std
+
+    @property
+    def activation(self) -> str:
+        """Name of the activation between the layers, such as "tanh"."""
+        return self.metadata["activation"]
 
     @property
     def task_name(self) -> str:
@@ -204,42 +240,46 @@ class Network(HeldActions):
         Returns:
             (n, robots, action) in [-1, 1].
         """
-        if self.mode == "mean" or self.action_std is None:
+        if self.mode == "mean" or not self.head.can_sample:
             return self.mean_actions(observations)
-        actions = self._unclipped_means(observations)
-        actions += self.action_std * rng.normal(actions.shape[1:])
-        return np.clip(actions, -1.0, 1.0, out=actions)
+        return self.head.drawn_actions(self.outputs(observations), rng)
 
     def mean_actions(self, observations: Floats) -> Floats:
-        """Return the mean actions (..., action) in [-1, 1].
+        """Return the actions of mode "mean", (..., action) in [-1, 1].
 
         Args:
             observations: (..., o) observations, stacked with a history.
         """
-        actions = self._unclipped_means(observations)
-        return np.clip(actions, -1.0, 1.0, out=actions)
+        return self.head.mean_actions(self.outputs(observations))
 
-    def _unclipped_means(self, observations: Floats) -> Floats:
-        """Output of the last layer (..., action)."""
+    def outputs(self, observations: Floats) -> Floats:
+        """Return the outputs of the last layer, (..., outputs), of which the head makes actions.
+
+        Args:
+            observations: (..., o) observations, stacked with a history.
+
+        Raises:
+            ValueError: observations of another size.
+        """
         if observations.shape[-1] != self.observation_size:
             raise ValueError(
                 f"the network takes observations of {self.observation_size} numbers, "
                 f"got {observations.shape[-1]}"
             )
         flat = observations.reshape(-1, self.observation_size)
-        actions = np.empty((len(flat), self.action_size), np.float32)
+        outputs = np.empty((len(flat), self.head.outputs), np.float32)
         rows = self._rows_per_product()
         for first in range(0, len(flat), rows):
-            actions[first : first + rows] = self._forward(flat[first : first + rows])
-        return actions.reshape(*observations.shape[:-1], self.action_size)
+            outputs[first : first + rows] = self._forward(flat[first : first + rows])
+        return outputs.reshape(*observations.shape[:-1], self.head.outputs)
 
     def _forward(self, observations: Floats) -> Floats:
         hidden = np.clip((observations - self.mean) / self.std, -self.clip, self.clip)
         for weight, bias in self.layers[:-1]:
-            hidden = np.tanh(hidden @ weight.T + bias)
+            hidden = self._activation(hidden @ weight.T + bias)
         weight, bias = self.layers[-1]
-        actions: Floats = hidden @ weight.T + bias
-        return actions
+        outputs: Floats = hidden @ weight.T + bias
+        return outputs
 
     def _rows_per_product(self) -> int:
         """Rows whose products use one thread; further threads would spin on other cores."""
@@ -247,28 +287,20 @@ class Network(HeldActions):
 
     def check_fits(self, task: Task, observation_size: int) -> None:
         """Raise ValueError for a task with other observations or actions."""
-        stacked = ObservationStack(self.history, observation_size, task.action_size).size
-        wanted = {"observation_size": stacked, "action_size": task.action_size}
-        layout = self.metadata.get("layout", task.layout.text)
-        history = f" with a history of {self.history}" if self.history > 1 else ""
-        for name, size in self._sizes().items():
-            if size != wanted[name]:
-                raise ValueError(
-                    f"a network trained on {self.task_name!r} has {name} {size}, but task "
-                    f"{task.name!r}{history} has {wanted[name]}: the network observes {layout}, "
-                    f"the observations of the task are {task.layout.text}"
-                )
-        if layout != task.layout.text:
-            raise ValueError(
-                f"a network trained on {self.task_name!r} observes {layout}, "
-                f"but the observations of task {task.name!r} are {task.layout.text}"
-            )
+        check_fits(
+            f"a network trained on {self.task_name!r}",
+            self._sizes(),
+            self.metadata.get("layout"),
+            self.history,
+            task,
+            observation_size,
+        )
 
     def arrays(self) -> dict[str, NDArray[np.float32]]:
         """Return copies of all arrays, by their names in the policy file."""
+        optional = {"action_std": self.head.action_std, "action_table": self.head.table}
         named = {"mean": self.mean, "std": self.std}
-        if self.action_std is not None:
-            named["action_std"] = self.action_std
+        named |= {name: array for name, array in optional.items() if array is not None}
         for index, (weight, bias) in enumerate(self.layers):
             named[f"layers.{index}.weight"] = weight
             named[f"layers.{index}.bias"] = bias
@@ -295,8 +327,18 @@ class Network(HeldActions):
             network = cls(*policy_file.read_file(Path(path)))
         except ValueError as error:
             raise ValueError(f"{os.fspath(path)} is not a usable policy file: {error}") from error
-        network.mode = _checked_mode(mode, network.action_std)
+        network.mode = network._checked_mode(mode)
         return network
+
+    def to_torch(self) -> TorchNetwork:
+        """Return a copy as a module of torch, with the normalization and the head.
+
+        Raises:
+            ImportError: torch is not installed.
+        """
+        from rsoccer.policies.torch_network import TorchNetwork
+
+        return TorchNetwork(self)
 
     def save(self, path: str | os.PathLike[str], *, half_precision: bool = False) -> None:
         """Write the policy file atomically; equal policies give equal bytes.
@@ -319,49 +361,39 @@ class Network(HeldActions):
                 arrays[name] = arrays[name].astype(np.float16)
         policy_file.write_file(Path(path), arrays, self.metadata)
 
+    def save_onnx(self, path: str | os.PathLike[str]) -> None:
+        """Write an ONNX file atomically, see `rsoccer.policies.onnx_export`.
+
+        Args:
+            path: the file, `*.onnx`; an existing one is replaced.
+
+        Raises:
+            ImportError: onnx is not installed.
+            ValueError: another name of a file.
+        """
+        from rsoccer.policies.onnx_export import write_onnx
+
+        write_onnx(self, Path(path))
+
     def _sizes(self) -> dict[str, int]:
         return {"observation_size": self.observation_size, "action_size": self.action_size}
 
-
-def _checked_mode(mode: str | None, action_std: Floats | None) -> str:
-    """The mode; as in training if it is None."""
-    if mode not in (None, *MODES):
-        raise ValueError(f"mode: expected one of {MODES}, got {mode!r}")
-    if mode == "sample" and action_std is None:
-        raise ValueError(
-            "mode: expected 'mean', as the policy has no action_std to sample with, got 'sample'"
-        )
-    return mode or ("mean" if action_std is None else "sample")
-
-
-def _weights_and_biases(
-    layers: Iterable[tuple[ArrayLike, ArrayLike] | nn.Module],
-) -> list[tuple[Floats, Floats]]:
-    """Weight and bias of each linear layer, given as pairs or as modules."""
-    if not isinstance(layers, Iterable) or isinstance(layers, str | Mapping):
-        raise TypeError(
-            "layers: expected pairs (weight, bias), or modules of torch in turn, as in an "
-            f"nn.Sequential, got {type(layers).__name__}; of a model pass the layers of its actor"
-        )
-    given: list[Any] = list(layers)
-    if not given:
-        raise ValueError("layers: expected one or more, got none")
-    if callable(given[0]):  # a module; torch is not imported for pairs of arrays
-        given = _pairs_of_modules(given)
-    if wrong := [part for part in given if not isinstance(part, tuple | list) or len(part) != 2]:
-        raise TypeError(f"layers: expected pairs (weight, bias), got {type(wrong[0]).__name__}")
-    return [(np.asarray(w, np.float32), np.asarray(b, np.float32)) for w, b in given]
+    def _checked_mode(self, mode: str | None) -> str:
+        """The mode; as in training if it is None."""
+        if mode not in (None, *MODES):
+            raise ValueError(f"mode: expected one of {MODES}, got {mode!r}")
+        if mode == "sample" and not self.head.can_sample:
+            raise ValueError(
+                "mode: expected 'mean', as the policy has no action_std to sample with, "
+                "got 'sample'"
+            )
+        return mode or ("sample" if self.head.can_sample else "mean")
 
 
-def _pairs_of_modules(modules: list[Any]) -> list[tuple[Array, Array]]:
-    """Weight and bias of the linear ones of some modules; ValueError unless tanh is between."""
-    from torch import nn
-
-    linear, between = modules[::2], modules[1::2]
-    fits = len(linear) == len(between) + 1
-    fits &= all(isinstance(layer, nn.Linear) and layer.bias is not None for layer in linear)
-    fits &= all(isinstance(module, nn.Tanh) for module in between)
-    if not fits:
-        kinds = ", ".join(type(module).__name__ for module in modules)
-        raise ValueError(f"layers: expected Linear with bias and Tanh in turn, got {kinds}")
-    return [tuple(part.detach().cpu().numpy() for part in (x.weight, x.bias)) for x in linear]
+def _action_size(
+    arrays: Mapping[str, Array], outputs: int, deviation: Deviation | str | None
+) -> int:
+    """Numbers in an action, from arrays that may still be wrong."""
+    if "action_table" in arrays:
+        return int(arrays["action_table"].shape[-1])
+    return outputs if deviation is None else outputs // 2

@@ -1,30 +1,33 @@
 """The file format of trained policies: its definition, reading, checks and writing.
 
-A policy file is one safetensors file, `policy.safetensors`. It holds a perceptron with tanh
-layers, the normalization of its observations, and how it acts. With observation size o, action
-size a and layers 0 to k:
+A policy file is one safetensors file, `policy.safetensors`. It holds a perceptron, the
+normalization of its observations, and how it acts. With observation size o, action size a, layers
+0 to k and c choices:
 
 | array | shape | dtype | content |
 | --- | --- | --- | --- |
-| `layers.<i>.weight` | (out, in) | float32 | weights of layer i; layer 0 takes o, layer k gives a |
+| `layers.<i>.weight` | (out, in) | float32 | weights of layer i; layer 0 takes o |
 | `layers.<i>.bias` | (out,) | float32 | biases of layer i |
 | `mean` | (o,) | float32 | mean of the observations in training |
 | `std` | (o,) | float32 | standard deviation of the observations in training, above 0 |
 | `action_std` | (a,) | float32 | standard deviation of the actions in training, above 0; optional |
+| `action_table` | (c, a) | float32 | actions that the policy chooses from; only with such a head |
 
 All numbers are finite. Arrays may be float16, which is half the size; they are read as float32.
 The metadata are text:
 
 | key | value | meaning |
 | --- | --- | --- |
-| `format` | `rsoccer-policy-2` | version of this format |
+| `format` | `rsoccer-policy-2`; `-3` with a head or deviation | version of this format |
 | `task` | a task's name | task of the training, for `make_task` |
 | `task_options` | JSON object; optional | options of `make_task` that the training set |
 | `sensing` | JSON of a `Sensing`, or `module:name`; optional | what robots knew in training |
 | `randomization` | JSON object; optional | distributions of numbers in training, by name |
 | `observation_size` | o | numbers in an observation, a stacked one with a `history` |
 | `action_size` | a | numbers in an action |
-| `activation` | `tanh` | activation after each layer but the last |
+| `activation` | `tanh`, `relu`, ... | after each layer but the last, see `activations` |
+| `head` | `gaussian` (default), ... | meaning of the outputs of layer k, see `heads` |
+| `deviation` | such as `exp -20 2`; optional | standard deviation as a function of outputs |
 | `clip` | above 0, default 10 | bound of a normalized observation, in standard deviations |
 | `action_repeat` | 1 (default) to 1000000 | control steps for which an action is held |
 | `history` | 1 (default) or more | observations in a stacked one, see `rsoccer.history` |
@@ -32,19 +35,21 @@ The metadata are text:
 | `training` | JSON object; optional | `command`, `samples`, `seed`, `package`, `physics` |
 | `scores` | JSON list; optional | results: objects with the fields of `Score` |
 
+Other heads than the plain Gaussian, and deviations, are described in `rsoccer.policies.heads`.
+
 `training` says how the policy was made: the command, the decisions that it learned from, the seed,
 and the versions of the package and of its physics in which the scores were measured. `sensing` and
 `randomization` are those of the matches in which it learned, as `Matches` takes them; they are
 absent where robots knew the true state and no numbers varied. They do not change how it plays.
 
-The mean action for an observation x is
+The outputs for an observation x are
 
     h = clip((x - mean) / std, -clip, clip)
-    h = tanh(weight @ h + bias)         for layers 0 to k - 1
-    action = weight @ h + bias          for layer k
+    h = activation(weight @ h + bias)   for layers 0 to k - 1
+    outputs = weight @ h + bias         for layer k
 
-With `action_std` an action is drawn as `action + action_std * N(0, 1)`. Then it is clipped to
-[-1, 1]. Equal policies give equal bytes.
+With the head `gaussian` they are the mean action. With `action_std` an action is drawn as
+`mean + action_std * N(0, 1)`. Then it is clipped to [-1, 1]. Equal policies give equal bytes.
 """
 
 from __future__ import annotations
@@ -60,15 +65,26 @@ import numpy as np
 from rsoccer.arrays import Array, Floats
 from rsoccer.files import read_safetensors, safetensors_bytes, write_atomically
 from rsoccer.history import ObservationStack
+from rsoccer.policies.activations import ACTIVATIONS
+from rsoccer.policies.heads import Head
 
 FORMAT: Final = "rsoccer-policy-2"
 """Version of the format. A new number makes older readers refuse the file."""
+
+HEAD_FORMAT: Final = "rsoccer-policy-3"
+"""Version for files with another head than the plain Gaussian, which older readers do not know."""
 
 MAX_ACTION_REPEAT: Final = 1_000_000
 """Upper bound of `action_repeat`, control steps: some seven hours of play."""
 
 SUFFIX: Final = ".safetensors"
 """End of the names of policy files."""
+
+ONNX_SUFFIX: Final = ".onnx"
+"""End of the names of ONNX files, which play as policies too."""
+
+SUFFIXES: Final = (SUFFIX, ONNX_SUFFIX)
+"""Ends of the names of files that play as policies."""
 
 INSTALL_HINT: Final = "writing policy files needs safetensors: pip install 'rsoccer[train]'"
 
@@ -105,9 +121,14 @@ def read_metadata(metadata: Mapping[str, str]) -> tuple[np.float32, int]:
     Raises:
         ValueError: a missing or wrong value.
     """
-    for name, wanted in {"format": FORMAT, "activation": "tanh"}.items():
-        if metadata.get(name) != wanted:
-            raise ValueError(f"metadata {name!r} should be {wanted!r}, got {metadata.get(name)!r}")
+    version = HEAD_FORMAT if {"head", "deviation"} & set(metadata) else FORMAT
+    if metadata.get("format") != version:
+        raise ValueError(f"metadata 'format' should be {version!r}, got {metadata.get('format')!r}")
+    if metadata.get("activation") not in ACTIVATIONS:
+        raise ValueError(
+            f"metadata 'activation' should be one of {tuple(ACTIVATIONS)}, "
+            f"got {metadata.get('activation')!r}"
+        )
     if not metadata.get("task"):
         raise ValueError("metadata 'task' should name the task of the training, got nothing")
     clip = _read_number(metadata, "clip", "10")
@@ -182,8 +203,9 @@ def read_layers(arrays: Mapping[str, Array]) -> list[tuple[Floats, Floats]]:
     count = sum(name.endswith(".weight") for name in arrays)
     expected = {f"layers.{index}.{part}" for index in range(count) for part in ("weight", "bias")}
     expected |= {"mean", "std"}
-    if count == 0 or set(arrays) - {"action_std"} != expected:
-        odd = sorted((set(arrays) - {"action_std"}) ^ expected) or ["layers.0.weight"]
+    given = set(arrays) - {"action_std", "action_table"}
+    if count == 0 or given != expected:
+        odd = sorted(given ^ expected) or ["layers.0.weight"]
         raise ValueError(f"missing or unknown arrays: {', '.join(odd)}")
     layers: list[tuple[Floats, Floats]] = []
     for index in range(count):
@@ -217,25 +239,33 @@ def read_normalizer(arrays: Mapping[str, Array], size: int) -> tuple[Floats, Flo
     return mean, std
 
 
-def read_action_std(arrays: Mapping[str, Array], size: int) -> Floats | None:
-    """Read the standard deviation of actions.
+def read_head(arrays: Mapping[str, Array], metadata: Mapping[str, str], outputs: int) -> Head:
+    """Read the head.
 
     Args:
-        arrays: arrays by name, with or without `action_std`.
-        size: numbers in an action.
+        arrays: arrays by name, with or without `action_std` and `action_table`.
+        metadata: text by key, with or without `head` and `deviation`.
+        outputs: numbers that the last layer gives.
 
     Returns:
-        (a,) standard deviations; None for a policy without them.
+        The head.
 
     Raises:
-        ValueError: an array of another shape or type, or a deviation that is not above 0.
+        ValueError: an unknown head or deviation, parts that do not belong together, an array of
+            another shape or type, or a deviation that is not above 0.
     """
-    if "action_std" not in arrays:
-        return None
-    action_std = _read_array(arrays, "action_std", (size,))
-    if not (action_std > 0.0).all():
-        raise ValueError(f"array 'action_std' should be above 0 everywhere, got {action_std.min()}")
-    return action_std
+    std = table = None
+    if "action_table" in arrays:
+        table = _read_array(arrays, "action_table", (None, None))
+        if np.abs(table).max() > 1.0:
+            raise ValueError(
+                f"array 'action_table' should be within [-1, 1], got {np.abs(table).max()}"
+            )
+    if "action_std" in arrays:
+        std = _read_array(arrays, "action_std", (outputs,))
+        if not (std > 0.0).all():
+            raise ValueError(f"array 'action_std' should be above 0 everywhere, got {std.min()}")
+    return Head.read(metadata, outputs, std, table)
 
 
 def _read_array(arrays: Mapping[str, Array], name: str, shape: tuple[int | None, ...]) -> Floats:

@@ -30,7 +30,10 @@ class Recorder:
     """A record of one world of `Matches`, which the caller resets and steps.
 
     Call `begin` after each reset of the world and `add` after each step. A world that waits for a
-    reset may be stepped on; nothing is added.
+    reset may be stepped on; nothing is added. With `attach=True` the matches call both themselves,
+    so that matches can be recorded that a library steps, as in
+    `Recorder(envs.matches, attach=True)` beside Stable-Baselines3; the record begins with the next
+    episode of the world, and `matches.detach(recorder)` ends it.
 
     Example:
         >>> import numpy as np
@@ -59,26 +62,32 @@ class Recorder:
         names: tuple[str, str] = ("BLUE", "YELLOW"),
         controllers: Controllers | None = None,
         snapshot_interval: float | None = None,
+        attach: bool = False,
     ) -> None:
         """Prepare a record; `begin` adds its first frame.
 
         Args:
-            matches: the matches. Their `autoreset` is "disabled" or "next_step": within
-                "same_step" the last state of an episode cannot be seen.
+            matches: the matches. Without `attach` their `autoreset` is "disabled" or "next_step":
+                within "same_step" the last state of an episode cannot be seen from outside.
             world: index of the world to record.
             names: names of blue and of yellow on the score board.
             controllers: controllers that the matches were made with, so that `Replay.resume` can
                 make them again.
             snapshot_interval: seconds of play between two snapshots, above 0, the first at the
                 start; None for no snapshots. They need matches of one world.
+            attach: True if the matches call `begin` and `add`; then the caller does not.
 
         Raises:
             TypeError: an argument of the wrong type.
             ValueError: matches that reset within a step, a world or an interval out of range, or
                 snapshots of several worlds.
         """
-        if matches.autoreset == "same_step":
-            raise ValueError("matches: expected autoreset 'disabled' or 'next_step', got same_step")
+        self._attached = checks.boolean("attach", attach)
+        if matches.autoreset == "same_step" and not attach:
+            raise ValueError(
+                "matches: expected autoreset 'disabled' or 'next_step', or attach=True, "
+                "got same_step"
+            )
         if checks.integer("world", world, 0) >= matches.worlds:
             raise ValueError(f"world: expected 0 to {matches.worlds - 1}, got {world}")
         if snapshot_interval is not None:
@@ -104,6 +113,8 @@ class Recorder:
         self._next_snapshot = 0.0
         self._start = 0
         self._ended = True
+        if attach:
+            matches.attach(self)
 
     def begin(self) -> None:
         """Add the initial state of an episode, after a reset of the world.
@@ -131,6 +142,8 @@ class Recorder:
             RuntimeError: no `begin` since the world was reset.
         """
         matches, world = self.matches, self.world
+        if self._ended and self._attached:
+            return  # the matches call `begin`
         if self._ended and matches.autoreset == "next_step" and self._rows:
             self.begin()  # this step has reset the world
             return

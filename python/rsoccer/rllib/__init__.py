@@ -20,8 +20,10 @@ except ImportError as error:
         'rsoccer.rllib needs RLlib and torch: pip install "ray[rllib]>=2.60" torch'
     ) from error
 
+from rsoccer.rllib.callback import EvaluationCallback
 from rsoccer.rllib.env import MetricsCallback, SoccerMultiAgentEnv
 from rsoccer.rllib.league import League
 from rsoccer.rllib.runner import MatchesEnvRunner
 
-__all__ = ["League", "MatchesEnvRunner", "MetricsCallback", "SoccerMultiAgentEnv"]
+__all__ = ["EvaluationCallback", "League", "MatchesEnvRunner", "MetricsCallback"]
+__all__ += ["SoccerMultiAgentEnv"]

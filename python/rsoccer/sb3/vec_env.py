@@ -17,6 +17,7 @@ from rsoccer.envs.options import initial_rows, learner_controllers, reset_option
 from rsoccer.envs.robot_rows import RobotRows, RobotRowsEnv
 from rsoccer.envs.viewer import Image, Viewer, metadata
 from rsoccer.matches import Outcome
+from rsoccer.matches.changes import option_names
 from rsoccer.randomization import Ranges
 from rsoccer.registry import resolve_task
 from rsoccer.sources import SensingSource, SimulatorSource
@@ -57,7 +58,11 @@ class SoccerVecEnv(RobotRowsEnv, VecEnv):  # type: ignore[misc]
 
     Options: `set_options({"frame": row})` before a `reset` sets the initial state (row,) of all
     matches, in the layout of `Frame.rows`; a list has the options of every row, of which those of
-    a match's first row count.
+    a match's first row count. They hold once, as in the library; `matches.start_from` sets the
+    starts of all later episodes.
+
+    Curricula: `set_attr("reward_weights", {...})` and `set_attr("controllers", {"yellow": ...})`
+    change options and opponents of running matches, see `Matches.change_options`.
 
     Copies by `copy.deepcopy` or `pickle` continue with the same future; copies of an environment
     that was never reset begin with random seeds of their own.
@@ -287,19 +292,34 @@ class SoccerVecEnv(RobotRowsEnv, VecEnv):  # type: ignore[misc]
         return [value for _ in self._get_indices(indices)]
 
     def set_attr(self, attr_name: str, value: Any, indices: Indices = None) -> None:  # noqa: ANN401
-        """Refuse to set an attribute: options of a task are fixed.
+        """Change an option of the task, or the policies of other robots, of all matches.
 
         Args:
-            attr_name: name of the attribute.
+            attr_name: name of an option, such as "reward_weights", as for
+                `Matches.change_options`; or "controllers", as for `Matches.change_controllers`.
             value: its value.
-            indices: rows; None for all.
+            indices: rows; None for all. They must be all rows, as matches share their options.
 
         Raises:
-            AttributeError: always.
+            AttributeError: another name.
+            TypeError: a value of the wrong type. Nothing has changed.
+            ValueError: a value out of range, or some rows only. Nothing has changed.
         """
-        raise AttributeError(
-            f"{attr_name}: attributes of matches cannot be set; pass options to SoccerVecEnv"
-        )
+        names = ["controllers", *option_names(self.task)]
+        if attr_name not in names:
+            raise AttributeError(
+                f"{attr_name}: attributes of matches cannot be set, except {names}"
+            )
+        rows = set(self._get_indices(indices))
+        if len(rows) != self.num_envs:
+            raise ValueError(
+                f"indices: expected all {self.num_envs} rows, as matches share their options, "
+                f"got {sorted(rows)}"
+            )
+        if attr_name == "controllers":
+            self._matches.change_controllers(value)
+        else:
+            self._matches.change_options(**{attr_name: value})
 
     def env_method(
         self,

@@ -40,7 +40,7 @@ def load(
 
     Raises:
         ValueError: no such policy, one without weights, or one that does not fit the task or has a
-            longer history.
+            longer history, or other activations or another head than the trainer's.
     """
     try:
         policy = make_policy(name, task)
@@ -49,6 +49,12 @@ def load(
     if not isinstance(policy, Network):
         raise ValueError(
             f"{argument}: expected a trained policy, got {name!r}, which has no weights"
+        )
+    if policy.activation != "tanh" or policy.head.kind != "gaussian" or policy.head.deviation:
+        raise ValueError(
+            f"{argument}: expected a policy with tanh layers and a Gaussian of constant deviation, "
+            f"as the trainer has them, got {policy.activation} layers and the head "
+            f"{policy.head.kind!r}"
         )
     if policy.history > stack.history:
         raise ValueError(

@@ -6,6 +6,7 @@ import time
 
 from rsoccer.train.rollout.episode_stats import Row
 from rsoccer.train.run import checkpoint
+from rsoccer.train.run.callback import Callback, Update
 from rsoccer.train.run.checkpoint import Checkpoint
 from rsoccer.train.run.folder import POLICY_FILE
 from rsoccer.train.run.ladder import Ladder
@@ -23,14 +24,17 @@ class Loop:
         ladder: measures the policy against fixed opponents.
     """
 
-    def __init__(self, trainer: Trainer, policy_files: dict[str, str]) -> None:
+    def __init__(
+        self, trainer: Trainer, policy_files: dict[str, str], callback: Callback | None = None
+    ) -> None:
         """Prepare the loop of a run.
 
         Args:
             trainer: the run.
             policy_files: digests of the policies that play beside the learners, for checkpoints.
+            callback: called after each update; None for none.
         """
-        self.trainer, self._policy_files = trainer, policy_files
+        self.trainer, self._policy_files, self._callback = trainer, policy_files, callback
         self.ladder = Ladder(
             trainer.args.run,
             trainer.task,
@@ -41,7 +45,9 @@ class Loop:
         )
 
     def run(self, stop: StopSignal, log_size: int) -> None:
-        """Train until the samples are used up or a signal comes, and save in both cases.
+        """Train until the samples are used up, the callback ends the run or a signal comes.
+
+        The run is saved in all cases, also if the callback raises an error.
 
         Args:
             stop: reports a signal.
@@ -58,8 +64,10 @@ class Loop:
         self.save(saved)
         try:
             while trainer.samples < args.samples:
-                self._update(stop, logger)
+                row = self._update(stop, logger)
                 saved = self._capture(logger)
+                if self._ends(row, saved):
+                    break
                 if time.monotonic() - saved_at > args.run.checkpoint_interval:
                     self.save(saved)
                     saved_at = time.monotonic()
@@ -82,14 +90,33 @@ class Loop:
         checkpoint.save(out / checkpoint.FILE_NAME, saved)
         self.trainer.network().save(out / POLICY_FILE)
 
-    def _update(self, stop: StopSignal, logger: Logger) -> None:
-        """Play and learn once; whole teams follow after the first part of the samples."""
+    def _ends(self, row: Row, saved: Checkpoint) -> bool:
+        """Return whether the callback ends the run, which is saved if it fails."""
+        if self._callback is None:
+            return False
+        try:
+            answer = self._callback(Update(self.trainer.args, dict(row), self.trainer.network))
+        except BaseException:
+            self.save(saved)
+            raise
+        if answer not in (None, True, False):
+            self.save(saved)
+            raise TypeError(f"callback: expected it to return None or a bool, got {answer!r}")
+        return answer is False
+
+    def _update(self, stop: StopSignal, logger: Logger) -> Row:
+        """Play and learn once, and return the row of the log.
+
+        Whole teams follow after the first part of the samples.
+        """
         trainer, args = self.trainer, self.trainer.args
         batch = trainer.collect_rollout(stop.check)
         trainer.update(batch, stop.check)
-        logger.write(trainer.samples, self._row(len(batch)))
+        row = self._row(len(batch))
+        logger.write(trainer.samples, row)
         if trainer.is_solo and trainer.samples >= args.opponents.solo_fraction * args.samples:
             trainer.start_team()
+        return row
 
     def _capture(self, logger: Logger) -> Checkpoint:
         return capture(self.trainer, self._policy_files, logger.size)

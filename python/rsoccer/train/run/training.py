@@ -11,6 +11,7 @@ from rsoccer.policies import trained_on
 from rsoccer.replay.recorder import record_replay
 from rsoccer.train.args import Args
 from rsoccer.train.run import folder
+from rsoccer.train.run.callback import Callback
 from rsoccer.train.run.checkpoint import Checkpoint
 from rsoccer.train.run.folder import MATCH_FILES, POLICY_FILE
 from rsoccer.train.run.loop import Loop
@@ -24,11 +25,12 @@ UNTRAINED_FILE = "untrained.safetensors"
 """Name of the policy from before the first update in a run's folder."""
 
 
-def run_training(args: Args) -> Path:
+def run_training(args: Args, callback: Callback | None = None) -> Path:
     """Start or resume a run and save its policy: the implementation of `rsoccer.train.train`.
 
     Args:
         args: settings of the run.
+        callback: called after each update, see `rsoccer.train.run.callback`; None for none.
 
     Returns:
         Path of the policy file.
@@ -41,7 +43,7 @@ def run_training(args: Args) -> Path:
     with closing(trainer):
         policy_files = folder.policy_digests(args)
         with folder.opened(args, policy_files) as saved:
-            _train(Loop(trainer, policy_files), saved)
+            _train(Loop(trainer, policy_files, callback), saved)
             if args.run.match_page:
                 _write_match(trainer)
     return args.out / POLICY_FILE

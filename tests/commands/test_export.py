@@ -1,0 +1,50 @@
+"""`rsoccer export`."""
+
+from pathlib import Path
+
+import pytest
+
+from rsoccer import cli, policies
+from rsoccer.policies.network import Network
+from rsoccer.policies.onnx_policy import OnnxPolicy
+from tests.policies.networks import random_network
+
+
+def error(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> str:
+    assert cli.main(["export", *arguments]) == cli.WRONG_INPUT
+    return capsys.readouterr().err
+
+
+def test_files_are_named_after_the_policy(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    folder = tmp_path / "run"
+    folder.mkdir()
+    random_network().save(folder / "policy.safetensors")
+    assert cli.main(["export", "run/policy.safetensors:mean", "--onnx"]) == 0
+    assert cli.main(["export", "best:robust", "--task", "VSS-v0"]) == 0
+    assert cli.main(["export", "best", "--task", "VSS-v0", "--onnx", "--out", "a.onnx"]) == 0
+    printed = capsys.readouterr().out
+    for name in ("run.onnx", "best-robust-VSS-v0.safetensors", "a.onnx"):
+        assert f"policy: {name} (" in printed
+    assert OnnxPolicy.load("run.onnx").task_name == "VSS-v0"
+    best = policies.make_policy("best:robust", "VSS-v0")
+    assert isinstance(best, Network)
+    assert Network.load("best-robust-VSS-v0.safetensors").metadata == best.metadata
+
+
+def test_other_policies_and_files_are_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    random_network().save("a.safetensors")
+    assert "expected best or a policy file" in error(["chase", "--onnx"], capsys)
+    assert "name ending in .onnx" in error(
+        ["a.safetensors", "--onnx", "--out", "a.safetensors"], capsys
+    )
+    assert "another file than the policy's own" in error(["a.safetensors"], capsys)
+    assert "has observation_size" in error(
+        ["a.safetensors", "--task", "SSLGoToBall-v0", "--onnx"], capsys
+    )
+    assert not list(tmp_path.glob("*.onnx"))

@@ -1,0 +1,57 @@
+"""Evaluations during a training of any library."""
+
+from pathlib import Path
+
+import pytest
+
+import rsoccer
+from rsoccer.match_evaluation import MatchEvaluation
+from rsoccer.policies import Policy, make_policy
+
+
+def test_scores_are_those_of_evaluate_at_intervals(tmp_path: Path) -> None:
+    policy = make_policy("best", "VSS-v0")
+    measured = MatchEvaluation(
+        ("ou", "scripted:0.5"), every=100, matches=2, seed=3, folder=tmp_path, seconds=0.2
+    )
+    calls: list[int] = []
+
+    def current() -> Policy:
+        calls.append(1)
+        return policy
+
+    scores = [measured(current, samples) for samples in (10, 50, 109, 110, 150)]
+    assert [bool(each) for each in scores] == [True, False, False, True, False]
+    assert len(calls) == 2
+    assert scores[0] == scores[3], "the matches are the same each time"
+    expected = {
+        f"evaluation/goal_score_{name}": rsoccer.evaluate(policy, name, 2, 3, task="VSS-v0").score
+        for name in ("ou", "scripted:0.5")
+    }
+    assert scores[0] == expected
+    assert [samples for samples, _ in measured.results] == [10, 110]
+    assert [page.name for page in measured.pages] == ["match_10.html", "match_110.html"]
+    assert "110 SAMPLES" in measured.pages[1].read_text()
+
+
+def test_tasks_of_one_team_have_no_opponents() -> None:
+    measured = MatchEvaluation(matches=1)
+    scores = measured(make_policy("best", "SSLGoToBall-v0"), 0)
+    assert list(scores) == ["evaluation/reached_default"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"opponents": "ou"}, "opponents: expected several policies, got 'ou'"),
+        ({"opponents": [3]}, "opponents: expected a policy"),
+        ({"every": 0}, "every: expected"),
+        ({"matches": 0}, "matches: expected"),
+        ({"seconds": 0.0}, "seconds"),
+        ({"task": "Nothing-v0"}, "unknown task"),
+        ({"folder": "/nowhere"}, "folder: expected one that exists, got /nowhere"),
+    ],
+)
+def test_bad_arguments_are_refused(arguments: dict[str, object], message: str) -> None:
+    with pytest.raises((TypeError, ValueError), match=message):
+        MatchEvaluation(**arguments)  # type: ignore[arg-type]
