@@ -130,7 +130,7 @@ def _with_numbers(statement: ast.stmt, numbers: Mapping[str, float]) -> ast.stmt
 
 
 def _representations(shown: object) -> dict[str, str]:
-    """What a notebook shows of an object, by MIME type."""
+    """Forms in which a notebook shows an object, by MIME type."""
     found = {"text/plain": repr(shown)}
     if callable(html := getattr(shown, "_repr_html_", None)):
         text = html()

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from tools import notebooks
+from tools.site import notebooks as site_notebooks
 
 QUICK = {"MATCHES": 4, "SAMPLES": 10_000}
 """Numbers of matches and samples that take seconds."""
@@ -63,3 +64,17 @@ def test_cells_share_names_and_show_their_last_expression() -> None:
 def test_an_error_in_a_cell_is_raised() -> None:
     with pytest.raises(ZeroDivisionError):
         notebooks.executed(made("1 / 0"))
+
+
+def test_the_site_shows_code_pictures_and_tables(tmp_path: Path) -> None:
+    site_notebooks.write(tmp_path)
+    page = (tmp_path / "first_match.md").read_text()
+    assert page.startswith("# The first match")
+    assert "```python\nimport rsoccer\n" in page
+    assert "{download}`first_match.ipynb`" in page
+    assert "```{raw} html\n<p>VSSSelfPlay-v0</p><table>" in page
+    (picture,) = tmp_path.glob("first_match-*.png")
+    assert f"![output]({picture.name})" in page
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    assert (tmp_path / "first_match.ipynb").read_text() == PATHS[0].read_text()
+    assert "first_match\ntrain_and_watch\n" in (tmp_path / "index.md").read_text()

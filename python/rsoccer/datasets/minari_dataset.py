@@ -98,7 +98,7 @@ def _at_end(steps: int, value: bool) -> list[bool]:
 
 
 def _metadata(episode: LearnerEpisode) -> dict[str, str | float]:
-    """What is known of an episode beside its steps."""
+    """Policy, robot and metrics of an episode."""
     metrics = {f"metric_{name}": value for name, value in episode.metrics.items()}
     return {"policy": episode.policy, "robot": episode.robot, **metrics}
 
