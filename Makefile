@@ -29,7 +29,7 @@ ifneq ($(MAKELEVEL),0)
 unexport MAKEFLAGS MFLAGS
 endif
 
-.PHONY: help venv demo test check-format check-lint lint-rust lint-python check-rust check-python check-site check-libraries check-rllib check-lowest check-recipes check-installs wheels check-aarch64 format docs site physics golden soak agreement coverage bench compare clean
+.PHONY: help venv demo test check-format check-lint lint-rust lint-python check-rust check-python check-site check-libraries check-rllib check-lowest check-recipes check-installs wheels check-aarch64 wasm playground check-wasm format docs site physics golden soak agreement coverage bench compare clean
 .DEFAULT_GOAL := help
 
 help: ## list all targets
@@ -83,7 +83,7 @@ check-libraries: $(LIBRARIES)/made ## run the tests with Stable-Baselines3, Supe
 	$(LIBRARIES)/bin/python $(STRICT) tests/wrappers --ignore-glob='*rllib*' --ignore-glob='*recipes*' \
 		tests/test_docstrings.py tests/benches/learning/running/test_sb3.py \
 		tests/benches/learning/running/test_pace.py \
-		$(foreach library,stable_baselines3 supersuit torchrl,'$(OF_LIBRARY)[$(library)]')
+		$(foreach library,minari stable_baselines3 supersuit torchrl,'$(OF_LIBRARY)[$(library)]')
 
 check-rllib: $(RLLIB)/made ## run the tests with RLlib and the Gymnasium that Ray pins, in an environment of their own
 	$(RLLIB)/bin/python $(STRICT) tests/wrappers/test_rllib*.py tests/test_docstrings.py '$(OF_LIBRARY)[ray]'
@@ -115,6 +115,23 @@ check-aarch64: ## run the golden hashes and the determinism tests of the physics
 		RSIM_TEST_ENGINE=$$engine $(CARGO) test --locked --target aarch64-unknown-linux-gnu --target-dir target/aarch64 \
 			--package rsim-core --test all -- golden:: determinism:: || exit 1; \
 	done
+
+# WebAssembly: CONTRIBUTING.md lists the packages that it needs. The standard library is built, too, with a flag that
+# stable compilers have only under the variable RUSTC_BOOTSTRAP. LTO, which takes minutes, is left out.
+WASM := target/wasm/wasm32-unknown-unknown/release/rsim_wasm.wasm
+wasm: export CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER ?= wasm-ld-19
+wasm: export CARGO_PROFILE_RELEASE_LTO := off
+wasm: export CARGO_PROFILE_RELEASE_CODEGEN_UNITS := 16
+wasm: export RUSTC_BOOTSTRAP := 1
+wasm:
+	$(CARGO) build --locked --release --package rsim-wasm --target wasm32-unknown-unknown --target-dir target/wasm \
+		-Zbuild-std=std,panic_abort
+
+playground: wasm $(VENV)/built ## write a page that plays matches in a browser: out/playground/index.html (some minutes)
+	$(BIN)/python -m tools.playground --module $(WASM)
+
+check-wasm: playground ## compare matches in Node and Chromium with native ones bit by bit, and play the playground
+	RSOCCER_WASM=$(WASM) $(BIN)/python $(STRICT) tests/wasm
 
 format: $(VENV)/tools ## format all code
 	$(CARGO) fmt --all
@@ -153,6 +170,7 @@ bench: $(VENV)/built ## measure the speed of this machine (some minutes; no othe
 	$(CARGO) bench --locked --package rsim-bench --bench step
 	$(BIN)/python -m benches.throughput
 	$(BIN)/python -m benches.whole_matches --store
+	$(BIN)/python -m benches.training_speed --store
 
 BEFORE ?= main
 compare: $(VENV)/built ## compare the speed of a step with that of an earlier commit, BEFORE=main

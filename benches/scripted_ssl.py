@@ -3,7 +3,7 @@
 Pairings of different skill tell whether the dial is monotonic, pairings of equal skill how often
 passes arrive and how many fouls there are. All counts are the referee's statistics of
 `SSLMatch-v0`, both teams together; a minute is one of the whole match, stoppages included. The
-result file keeps every row.
+result file gets every row at once, and `--resume` goes on with the rows that are missing.
 """
 
 import argparse
@@ -23,6 +23,7 @@ import numpy as np
 import rsoccer
 from benches.markdown import table
 from benches.result_files import RESULTS, this_machine
+from rsoccer import files
 from rsoccer.arrays import Doubles
 from rsoccer.evaluate import Interval
 from rsoccer.evaluate.results import bootstrap_interval, bootstrap_rate
@@ -216,24 +217,41 @@ def main(arguments: Sequence[str] | None = None) -> Path:
     parser.add_argument("--seed", type=int, default=0, help="seed of the first match")
     parser.add_argument("--processes", type=int, default=1, help="pairings measured at once")
     parser.add_argument("--out", type=Path, default=FILE, help="result file")
+    parser.add_argument("--resume", action="store_true", help="keep the rows of the result file")
     options = parser.parse_args(arguments)
     chosen = [options.only] if options.only else list(GROUPS)
     settings = (options.matches, options.half_seconds, options.seed)
     jobs = [(pairing, *settings) for group in chosen for pairing in GROUPS[group]]
-    rows = []
-    for row in _measured(jobs, options.processes):
+    rows = _kept(options.out, options) if options.resume else []
+    known = {row.pairing for row in rows}
+    for row in _measured([job for job in jobs if job[0] not in known], options.processes):
         rows.append(row)
         sys.stderr.write(f"{report([row]).splitlines()[-1]}\n")
+        _write(options.out, rows, options)
     sys.stdout.write(f"{report(rows)}\n")
+    return Path(options.out)
+
+
+def _kept(path: Path, options: argparse.Namespace) -> list[Row]:
+    """Rows of a result file of the same duration, seed and number of matches."""
+    if not path.exists():
+        return []
+    kept = json.loads(path.read_text())
+    if (kept["half_seconds"], kept["seed"]) != (options.half_seconds, options.seed):
+        return []
+    return [_row(**row) for row in kept["rows"] if row["matches"] == options.matches]
+
+
+def _write(path: Path, rows: Sequence[Row], options: argparse.Namespace) -> None:
+    """Write the result file."""
     result = {
         "machine": asdict(this_machine()),
         "half_seconds": options.half_seconds,
         "seed": options.seed,
         "rows": [asdict(row) for row in rows],
     }
-    options.out.parent.mkdir(parents=True, exist_ok=True)
-    options.out.write_text(json.dumps(result, indent=1) + "\n")
-    return Path(options.out)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    files.write_atomically(path, (json.dumps(result, indent=1) + "\n").encode())
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """Evaluations of two-sided tasks as text and as JSON."""
 
 import json
+from dataclasses import replace
 
 import rsoccer
 from rsoccer.evaluate import Evaluation, evaluate, table
@@ -31,3 +32,13 @@ def test_results_go_into_json() -> None:
 def test_the_package_offers_the_function() -> None:
     assert rsoccer.evaluate is evaluate
     assert isinstance(rsoccer.evaluate("zero", "zero", 2, task=Decided()), Evaluation)
+
+
+def test_a_notebook_shows_the_cells_of_the_table() -> None:
+    result = evaluate("zero", "ou", matches=4, task=Decided())
+    shown = result._repr_html_()
+    assert shown.count("<table>") == 1
+    for cell in str(result).split():
+        assert cell in shown
+    assert "<script" not in replace(result, policy="<script>")._repr_html_()
+    assert "&lt;script&gt;" in replace(result, policy="<script>")._repr_html_()

@@ -177,3 +177,65 @@ def test_every_interface_takes_senses_and_variation() -> None:
         environment.reset(seed=1)
     evaluation = rsoccer.evaluate("zero", "zero", 4, task="VSSSelfPlay-v0", **given)
     assert evaluation.matches == 4
+
+
+# -- Cameras of each team ---------------------------------------------------------------------
+
+OWN = Sensing("realistic", own_cameras=1)
+NOBODY = {"all": rsoccer.LEARN}
+"""Controllers that do not look, so that the matches are the same whatever is known."""
+
+
+def known_to_teams(matches: Matches, steps: int = 40) -> list[Floats]:
+    """(2, worlds, row) errors of what blue and yellow know, after each step of robots that rest.
+
+    What a robot that drives knows turns its commands, so that it would drive elsewhere.
+    """
+    matches.reset()
+    shape = (matches.worlds, len(matches.agents), matches.action_size)
+    found = []
+    for _ in range(steps):
+        matches.step(np.zeros(shape, np.float32))
+        known = [matches.play.known_to(team).rows for team in (0, 1)]
+        found.append(np.stack(known) - matches.frame.rows)
+    return found
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_each_team_knows_what_its_own_cameras_see(task: str) -> None:
+    shared, own = (
+        np.stack(known_to_teams(Matches(TASKS[task], 3, sensing=each, controllers=NOBODY)))
+        for each in ("realistic", OWN)
+    )
+    assert np.array_equal(shared[:, 0], shared[:, 1])
+    assert np.array_equal(own[:, 0], shared[:, 0])
+    ball = own[..., :2]
+    assert (ball[:, 0] != ball[:, 1]).mean() > 0.9
+    sizes = np.sqrt((ball**2).mean(axis=(0, 2, 3)))
+    assert 0.5 < sizes[0] / sizes[1] < 2.0
+
+
+@pytest.mark.parametrize("forecast", [0, 1])
+def test_cameras_of_each_team_are_the_same_in_any_batch_and_resumed(forecast: int) -> None:
+    sensing = Sensing("realistic", own_cameras=1, forecast=forecast)
+    alone = played(Matches(TASKS["SSLSelfPlay-v0"], 1, 5, sensing=sensing), 40)
+    among = played(Matches(TASKS["SSLSelfPlay-v0"], 5, 5, threads=2, sensing=sensing), 40)
+    assert alone == among
+    ours, theirs = (Matches(TASKS["SSLSelfPlay-v0"], 2, n, sensing=sensing) for n in (0, 1))
+    ours.reset()
+    actions = np.full((2, len(ours.agents), ours.action_size), 0.3, np.float32)
+    for _ in range(7):
+        ours.step(actions)
+    theirs.load_state_dict(ours.state_dict())
+    for _ in range(7):
+        ours.step(actions)
+        theirs.step(actions)
+    for team in (0, 1):
+        assert np.array_equal(ours.play.known_to(team).rows, theirs.play.known_to(team).rows)
+
+
+def test_a_team_without_opponents_that_look_has_its_own_cameras() -> None:
+    matches = Matches("VSS-v0", 1, 0, sensing=OWN)
+    assert matches.play.teams_differ
+    errors = known_to_teams(matches, 10)
+    assert not np.array_equal(errors[-1][0], errors[-1][1])

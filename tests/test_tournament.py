@@ -221,3 +221,17 @@ def test_matches_have_the_simulator_and_the_senses_that_are_named() -> None:
     assert not any(standing.wins or standing.losses for standing in still.standings)
     usual, sensing = (rsoccer.tournament(policies, 4, sensing=given) for given in (None, blind))
     assert usual.standings[0].wins > sensing.standings[0].wins
+
+
+def test_a_notebook_shows_ratings_and_scores_in_color() -> None:
+    counts = np.zeros((3, 3, 3), np.int64)
+    for blue in range(3):
+        for yellow in range(3):
+            if blue != yellow:
+                counts[blue, yellow] = (20, 0, 0) if blue < yellow else (0, 0, 20)
+    result = summarize(["chase", "zero", "ou"], counts, "VSSSelfPlay-v0", 0)
+    shown = result._repr_html_()
+    assert shown.count("<table>") == 2
+    assert shown.count("rgba(47,109,179,0.60)") == shown.count("rgba(200,60,50,0.60)") == 3
+    assert all(standing.label in shown for standing in result.standings)
+    assert "40 matches a pair" in shown

@@ -43,6 +43,7 @@ INSTALLS: Final = {
     ),
     "'rsoccer[train]'": Install("import rsoccer.train, safetensors, torch, tensorboard"),
     "'rsoccer[cli]'": Install(COMMAND),
+    "'rsoccer[data]'": Install("import minari, h5py, rsoccer.datasets"),
     "'rsoccer[network]'": Install(
         "import websockets, rsoccer.bridge.server, rsoccer.protocols.vision"
     ),

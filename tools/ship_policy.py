@@ -18,8 +18,8 @@ from pathlib import Path
 from typing import Any, Final
 
 import rsoccer
-from benches.learning.opponents import opponents_of
 from rsoccer import Sensing, checks
+from rsoccer.benchmark.protocol import opponents_of
 from rsoccer.evaluate import Evaluation, evaluate, table
 from rsoccer.evaluate.results import MIN_PER_SIDE
 from rsoccer.files import write_atomically

@@ -15,19 +15,19 @@ import gymnasium
 import pettingzoo
 
 import rsoccer
-from benches import scripted_ssl
+from benches import offline, scripted_ssl
 from benches.learning.reporting import report as learning
 from benches.markdown import filled, table
 from rsoccer import policies
 from rsoccer.policies import trained
 from rsoccer.policies.policy_file import read_file
 from rsoccer.tasks import legacy_names
-from tools import referee_tables, senses_tables, soak_matches
+from tools import leaderboard, referee_tables, senses_tables, soak_matches
 from tools.library_speed import libraries
 from tools.paths import DOCS, ROOT
 from tools.protocols import codes, fields
 from tools.site import task_docs
-from tools.speed import feature, instructions, speed, summary, whole_matches
+from tools.speed import feature, instructions, speed, summary, training_speed, whole_matches
 
 README = ROOT / "README.md"
 WRITTEN = (
@@ -36,7 +36,9 @@ WRITTEN = (
     DOCS / "getting-started.md",
     DOCS / "index.md",
     *learning.PAGES,
+    DOCS / "leaderboard.md",
     DOCS / "libraries.md",
+    DOCS / "offline.md",
     DOCS / "policies.md",
     DOCS / "protocols.md",
     DOCS / "referee.md",
@@ -105,8 +107,9 @@ def policy_names() -> str:
     names = ", ".join(f"`{name}`" for name in policies.list_policies())
     skilled = " or ".join(f"`{name}:0.5`" for name in policies.list_policies_with_skill())
     return (
-        f"{names}, or the path of a policy file. A skill from 0 to 1 may follow, as in {skilled}. "
-        "`best` is the [trained policy](docs/policies.md#trained-policies) of the task. It and "
+        f"{names}, the path of a policy file, or `module:name` of code of your own. A skill "
+        f"from 0 to 1 may follow, as in {skilled}. `best` is the [trained policy]"
+        "(docs/policies.md#trained-policies) of the task. It and "
         "policy files sample actions as in training; `best:mean` plays the mean action."
     )
 
@@ -238,9 +241,15 @@ PARTS: dict[str, Callable[[], str]] = {
     "curve": curve_picture,
     "demo": demo,
     "instructions": instructions,
+    "leaderboard_paper": leaderboard.papers_algorithms,
+    "leaderboard_plain": leaderboard.plain,
+    "leaderboard_provenance": leaderboard.provenance,
+    "leaderboard_quoted": leaderboard.quoted,
+    "leaderboard_robust": leaderboard.robust,
     "libraries": libraries,
     "match": match_picture,
     "new_task": new_task,
+    "offline": offline.results,
     "old_names": old_names,
     "policies": policy_names,
     "referee_choices": referee_tables.choices,
@@ -261,6 +270,7 @@ PARTS: dict[str, Callable[[], str]] = {
     "speed_feature": feature,
     "speed_summary": summary,
     "tasks": tasks,
+    "training_speed": training_speed,
     "vsss_rules": referee_tables.vsss_rules,
     "whole_matches": whole_matches,
 }

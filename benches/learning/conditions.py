@@ -11,8 +11,8 @@ from typing import Any, Final
 from benches.learning import ppo_settings, run_files, sb3_settings
 from benches.learning.experiments import CLONES, PPO, SB3, Run, Study
 from benches.learning.run_files import DIGEST_DIGITS, Folders
-from benches.learning.senses import MATCHES
 from rsoccer._core import build_info
+from rsoccer.benchmark.protocol import MATCHES
 from rsoccer.policies import make_policy
 from rsoccer.policies.network import Network
 from rsoccer.registry import make_task

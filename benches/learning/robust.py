@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any, Final
 
 from benches.learning.experiments import CLONES, Experiment
-from benches.learning.opponents import opponents_of
-from benches.learning.senses import CONDITIONS
 from rsoccer import Sensing
+from rsoccer.benchmark.conditions import CONDITIONS
+from rsoccer.benchmark.protocol import opponents_of
 from rsoccer.policies import trained
 from rsoccer.train.task_settings import recommended_settings
 

@@ -10,8 +10,8 @@ from typing import Final
 
 from benches.learning import ablation
 from benches.learning.experiments import Experiment, Study
-from benches.learning.opponents import VSSS
 from benches.learning.robust import ROBUST
+from rsoccer.benchmark.protocol import VSSS
 from rsoccer.train.args import Args
 from rsoccer.train.task_settings import recommended_settings
 

@@ -786,6 +786,10 @@ class Sensing:
         """Error of all positions of a camera, in each direction (m, 0 or above)."""
 
     @property
+    def own_cameras(self) -> float:
+        """1 for cameras of each team's own, 0 for the same that both teams see by (0 to 1)."""
+
+    @property
     def tracker(self) -> float:
         """1 to filter detections, 0 to take each with its true velocity (0 to 1)."""
 
@@ -1950,8 +1954,9 @@ class Simulator:
         Args:
             out: Output (n, row), float32; the rows of active worlds are written.
             active: Mask of the worlds to write (n,), bool. None for all.
-            known: Robots whose commands on their way a forecast knows: "blue", "yellow" or "all";
-                None for what is known without a forecast. Without one all know the same.
+            known: Robots whose commands on their way a forecast knows, and whose cameras they see
+                by if each team has its own: "blue", "yellow" or "all", by those of blue; None for
+                what blue knows without a forecast. Otherwise all know the same.
 
         Raises:
             ValueError: An array has another shape, `out` is not writeable, or another `known`.
@@ -2018,6 +2023,88 @@ class Simulator:
     def __getnewargs__(self) -> tuple[SimConfig, int, int]: ...
     def __getstate__(self) -> bytes: ...
     def __setstate__(self, state: bytes) -> None: ...
+
+@final
+class VisionTracker:
+    """Estimates of all bodies from detections of cameras, by the tracker of the senses.
+
+    It filters what cameras of other simulators and of real fields see, as the tracker of `Sensing`
+    filters what simulated ones do: positions and velocities, balls that are none, headings that are
+    misread. Its filters are those for noise and frame rate of `config.sensing`; without senses for
+    the least noise that they count with, at 60 Hz.
+
+    Example:
+        >>> import numpy as np
+        >>> from rsoccer import SimConfig
+        >>> from rsoccer._core import VisionTracker
+        >>> tracker, robots = VisionTracker(SimConfig("ssl_b", 1, 0)), np.zeros((0, 5), np.float32)
+        >>> for frame in range(30):
+        ...     ball = np.array([[0.02 * frame, 0.0]], np.float32)
+        ...     _ = tracker.take(frame / 60, ball, robots)
+        >>> row = np.empty((1, 29), np.float32)
+        >>> tracker.read(row)
+        >>> round(float(row[0, 3]), 2)
+        1.2
+
+    Args:
+        config: Field, ball and robots.
+
+    Raises:
+        TypeError: The argument has another type.
+        ValueError: The teams do not fit on the field.
+    """
+
+    def __new__(cls, config: SimConfig) -> VisionTracker: ...
+    @property
+    def config(self) -> SimConfig:
+        """Configuration of the match."""
+
+    @property
+    def time(self) -> float | None:
+        """Time of the last frame (s); None before the first."""
+
+    @property
+    def has_ball(self) -> bool:
+        """Whether a ball has been seen."""
+
+    @property
+    def robots_in_sight(self) -> list[int]:
+        """Indices of the robots that were seen in the last half second."""
+
+    def take(self, time: float, balls: NDArray[np.float32], robots: NDArray[np.float32]) -> bool:
+        """Take in the detections of a camera.
+
+        Cameras with the same time are of one instant.
+
+        Args:
+            time: Time of the exposure, s, on any clock that runs evenly.
+            balls: Positions of balls (k, 2), float32, m, the likeliest first; one of them, at most,
+                is real.
+            robots: Index in a state row, position (m) and cosine and sine of the heading of each
+                robot (m, 5), float32.
+
+        Returns:
+            False if the frame is older than the last one; then nothing has changed.
+
+        Raises:
+            ValueError: A number is not finite, an index that no robot has, a heading without a
+                length, or an array of another shape. Nothing has changed.
+            TypeError: An array of another type. Nothing has changed.
+        """
+
+    def read(self, out: NDArray[np.float32]) -> None:
+        """Write the state at the last frame.
+
+        Touches, crossings and beams are those of a match that begins. Robots that were not seen for
+        half a second are absent, where they were seen last.
+
+        Args:
+            out: Output (1, row), float32.
+
+        Raises:
+            ValueError: The array has another shape or cannot be written.
+            TypeError: The array has another type.
+        """
 
 def referee_preset(name: str) -> str:
     """Return the numbers and switches of a preset of the rules, as JSON.

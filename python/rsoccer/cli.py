@@ -15,8 +15,10 @@ INTERRUPTED = 130  # exit status after Ctrl-C, as shells report it: 128 + SIGINT
 EXTRAS = {
     "PIL": "render",
     "google": "network",
+    "h5py": "data",
     "imageio_ffmpeg": "render",
     "matplotlib": "train",
+    "minari": "data",
     "onnx": "onnx",
     "onnxruntime": "onnx",
     "pygame": "render",

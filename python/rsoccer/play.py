@@ -77,8 +77,9 @@ class Play:
     def sensed(self) -> Frame:
         """(n, ...) current state as the robots know it.
 
-        Teams that forecast know different things (`known_to`): then each robot is as its own team
-        knows it, and the ball as blue does. A team without observers does not forecast.
+        Teams with forecasts or cameras of their own know different things (`known_to`): then each
+        robot is as its own team knows it, and the ball as blue does. A team without observers does
+        not forecast.
         """
         return self.frame if self.senses is None else self.senses.frame
 
@@ -112,7 +113,7 @@ class Play:
 
     @property
     def teams_differ(self) -> bool:
-        """True if teams know different states, by forecasts of their own."""
+        """True if teams know different states, by forecasts or cameras of their own."""
         return self.senses is not None and self.senses.teams is not None
 
     @property

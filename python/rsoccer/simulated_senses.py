@@ -38,8 +38,9 @@ class SensingStepper(Protocol):
         Args:
             out: (n, row) output; the rows of the active worlds are overwritten.
             active: (n,) bool, worlds to write; all if None.
-            known: team whose robots' commands on their way a forecast knows, "blue" or "yellow";
-                None for no forecast. Without `forecast` all know the same, and it is not given.
+            known: team that knows it, "blue" or "yellow", by its own commands on their way if it
+                forecasts, and by its own cameras; None for no forecast. Without `forecast` and
+                `own_cameras` all know the same, and it is not given.
         """
 
 
@@ -72,8 +73,8 @@ class SimulatedSenses(Senses):
     ranges: NumberRanges | None
     """Ranges of numbers that each episode draws; None if all are those of the configuration."""
     observing: tuple[int, ...] | None
-    """Teams with forecasts of their own, 0 for blue and 1 for yellow; the others know what is
-    sensed. None if all robots know the same."""
+    """Teams with forecasts or cameras of their own, 0 for blue and 1 for yellow; the others know
+    what is sensed. None if all robots know the same."""
     frame: Frame
     rng: WorldRng
     teams: tuple[Frame, Frame] | None = None
@@ -94,7 +95,8 @@ class SimulatedSenses(Senses):
             stepper: the simulator.
             total: number of its worlds.
             ranges: ranges of numbers that each episode draws.
-            observing: teams with forecasts of their own; None if all robots know the same.
+            observing: teams with forecasts or cameras of their own; None if all robots know the
+                same.
             frame: frame of n worlds; copied.
             rng: (n,) random streams.
         """

@@ -16,7 +16,7 @@ from contextlib import (
     contextmanager,
     nullcontext,
 )
-from typing import Any, TypeAlias, TypeVar
+from typing import Any, Final, TypeAlias, TypeVar
 
 from rsoccer import plugins
 from rsoccer._core import Sensing, SimConfig, Simulator, Threads
@@ -26,9 +26,15 @@ from rsoccer.simulator_interface import Closer, Stepper
 SimulatorFactory: TypeAlias = Callable[[SimConfig, int, Threads], Stepper]
 """Makes a simulator from robots, ball and field, the number of worlds, and the threads of the
 matches. `rsoccer.Simulator` is one."""
+NETWORK_SIMULATORS: Final = {
+    "grsim": "rsoccer.drive:grsim",
+    "firasim": "rsoccer.drive:firasim",
+    "ssl-simulation": "rsoccer.drive:ssl_simulation",
+}
+"""Names of simulators on the network of this machine, which step one match at a time."""
 SimulatorSource: TypeAlias = SimulatorFactory | Stepper | str
-"""A factory, its "module:name", or a simulator of one's own, which serves one object only: an
-environment with it cannot be copied."""
+"""A factory, its "module:name", a name of `NETWORK_SIMULATORS`, or a simulator of one's own, which
+serves one object only: an environment with it cannot be copied."""
 SensingSource: TypeAlias = Sensing | SensorModel | str
 """A `Sensing`, the name of its preset or its .json file, a sensor model, or "module:name" of one of
 them or of a function without arguments that makes it."""
@@ -53,7 +59,9 @@ def make_simulator(
     """
     if source is None:
         return Simulator(config, worlds, threads)
-    factory = plugins.find("simulator", source) if isinstance(source, str) else source
+    factory: Any = source
+    if isinstance(source, str):
+        factory = plugins.find("simulator", NETWORK_SIMULATORS.get(source, source))
     made: Any = factory
     if callable(factory):
         _check_signature(factory, config, worlds, threads)

@@ -48,3 +48,20 @@ def test_processes_do_not_change_the_rows(tmp_path: Path, monkeypatch: pytest.Mo
         return [{name: row[name] for name in row if name != "speed"} for row in found]
 
     assert rows("one.json") == rows("two.json", "--processes", "2")
+
+
+def test_a_stopped_run_goes_on_with_the_rows_that_are_missing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pairings = (Pairing(1.0, 0.0, robots=1), Pairing(0.0, 0.0, robots=1))
+    quick = ["--matches", "1", "--half-seconds", "1", "--out", str(tmp_path / "rows.json")]
+    monkeypatch.setattr(scripted_ssl, "GROUPS", {"sizes": pairings[:1]})
+    stopped = json.loads(scripted_ssl.main(quick).read_text())
+    stopped["rows"][0]["speed"] = -1.0  # marks the row
+    (tmp_path / "rows.json").write_text(json.dumps(stopped))
+    monkeypatch.setattr(scripted_ssl, "GROUPS", {"sizes": pairings})
+    rows = json.loads(scripted_ssl.main([*quick, "--resume"]).read_text())["rows"]
+    assert [row["pairing"]["blue"] for row in rows] == [1.0, 0.0]
+    assert rows[0]["speed"] == -1.0 < rows[1]["speed"]
+    other = json.loads(scripted_ssl.main([*quick, "--resume", "--seed", "1"]).read_text())["rows"]
+    assert all(row["speed"] > 0.0 for row in other)

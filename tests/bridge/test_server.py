@@ -483,6 +483,7 @@ def test_a_kick_off_of_an_external_referee_is_one_team_s_until_the_ball_has_move
     assert (game.in_play[0], game.may_touch[0].all()) == (1.0, True)
 
 
-def test_a_served_match_refuses_forecasts() -> None:
-    with pytest.raises(ValueError, match=r"sensing\.forecast: expected 0"):
-        Arena(make_match("ssl", "B", None), Sensing("rc2021", forecast=1))
+@pytest.mark.parametrize("name", ["forecast", "own_cameras"])
+def test_a_served_match_refuses_what_its_one_vision_cannot_tell(name: str) -> None:
+    with pytest.raises(ValueError, match=rf"sensing\.{name}: expected 0"):
+        Arena(make_match("ssl", "B", None), Sensing("rc2021", **{name: 1}))

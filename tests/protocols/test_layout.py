@@ -58,6 +58,22 @@ def test_sides_turn_places_and_directions() -> None:
         assert np.allclose(made.heading_from_wire(angles), headings)
 
 
+def test_exchanged_colors_are_those_of_the_wire_alone() -> None:
+    for positive in (False, True):
+        made = WireLayout(
+            SSL, blue_ids=(4, 2, 9), blue_on_positive_half=positive, colors_exchanged=True
+        )
+        # What is blue in the package, with its goal at -x, is yellow on the wire.
+        assert made.identity(1) == (YELLOW, 2)
+        assert made.slot(YELLOW, 2) == 1
+        assert list(made.slots(YELLOW)) == [0, 1, 2]
+        assert list(made.slots(BLUE)) == [3, 4, 5, 6]
+        assert [made.exchanged(team) for team in (BLUE, YELLOW)] == [YELLOW, BLUE]
+        assert made.sign == (1.0 if positive else -1.0)
+        with pytest.raises(MessageError, match=r"expected one of \[4, 2, 9\] for yellow, got 7"):
+            made.slot(YELLOW, 7)
+
+
 def test_foreign_frames_are_refused() -> None:
     with pytest.raises(ValueError, match=r"^frame: expected \(3, 4\) .* got \(3, 3\)"):
         layout().check_frame(state(VSSS), 0)

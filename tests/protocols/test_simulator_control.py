@@ -1,11 +1,12 @@
 """Control of the simulator in the simulation protocol."""
 
 import numpy as np
+import pytest
 
 from rsoccer.protocols.errors import Code
 from rsoccer.protocols.parsing import parse
 from rsoccer.protocols.schemas import simulation_pb2
-from rsoccer.protocols.simulator_control import ControlResult, read_command
+from rsoccer.protocols.simulator_control import ControlResult, read_command, to_command
 from tests.protocols.matches import SSL, codes, layout, state
 
 
@@ -127,3 +128,30 @@ def test_a_robot_that_enters_without_a_place_is_refused() -> None:
     frame = state()
     frame.robots.absent[1, 3] = 1.0
     assert codes(read_command(layout(), message, frame, 1).problems) == [Code.INCOMPLETE]
+
+
+@pytest.mark.parametrize("positive", [False, True])
+def test_a_state_is_put_as_a_whole(positive: bool) -> None:
+    wire, wanted = layout(positive=positive), state()
+    wanted.ball.position[0] = 0.5, -0.25
+    wanted.ball.height[0] = 0.1
+    wanted.ball.velocity[0] = 1.0, 2.0
+    wanted.robots.absent[0, 2] = 1.0
+    start = state()
+    start.rows[:] = 0.0
+    start.robots.heading[..., 0] = 1.0
+    stranger = (1, 77)
+    message = to_command(wire, wanted, removed=[stranger])
+    sent = parse(simulation_pb2.Command, message.SerializeToString())
+    result = read_command(wire, sent, start)
+    assert codes(result.problems) == [Code.UNKNOWN_ROBOT]  # the stranger alone
+    placed = result.placement.frame
+    np.testing.assert_allclose(placed.ball.position[0], [0.5, -0.25], atol=1e-6)
+    np.testing.assert_allclose(placed.ball.velocity[0], [1.0, 2.0], atol=1e-6)
+    assert placed.ball.height[0] == pytest.approx(0.1)
+    here = wanted.robots.absent[0] == 0
+    for name in ("position", "heading", "velocity", "angular_velocity"):
+        found, expected = (getattr(f.robots, name)[0, here] for f in (placed, wanted))
+        np.testing.assert_allclose(found, expected, atol=1e-5)
+    assert placed.robots.absent[0].tolist() == wanted.robots.absent[0].tolist()
+    assert not message.control.teleport_robot[-1].present

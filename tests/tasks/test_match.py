@@ -270,6 +270,9 @@ def test_a_robot_that_is_taken_out_is_masked(task: Match) -> None:
     assert present[0].tolist() == [1.0, 0.0] + [1.0] * (present.shape[1] - 2)
     assert not outcome.observations[0, 1, : blocks["action"].columns.start].any()
     seen = game_block(matches, outcome.observations)
+    acted = matches.step(np.ones_like(zeros(matches)))
+    assert acted.terms["energy"][0, 0] < 0.0
+    assert all(acted.terms[name][0, 1] == 0.0 for name in ("energy", "approach", "ball_to_goal"))
     share = 1.0 - 1.0 / task.n_blue
     assert seen["own_robots"][0, 0] == pytest.approx(share)
     assert seen["opponents_robots"][0, -1] == pytest.approx(share)

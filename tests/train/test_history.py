@@ -102,7 +102,7 @@ def test_reflected_samples_have_a_reflected_past(
     trainer = Trainer(tiny(tmp_path, history=2, mirror_augmentation=True))
     trainer.update(trainer.collect_rollout(lambda: None), lambda: None)
     batch = trainer.collect_rollout(lambda: None)
-    both = with_reflections(batch, trainer.task, trainer.stack, trainer.model)
+    both = with_reflections(batch, trainer.task, trainer.stack, trainer.evaluator)
     mean, std = (torch.tensor(part) for part in trainer.collector.obs_rms.as_float32())
     raw, reflected = ((part.observations * std + mean).numpy() for part in (batch, both))
     reflected, o = reflected[len(batch) :], trainer.task.layout.size

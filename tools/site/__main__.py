@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Final
 
 from tools.paths import ROOT
-from tools.site import matches
+from tools.site import matches, playground
 from tools.site.api import RUST
 from tools.site.source import lay_out
 
@@ -35,6 +35,7 @@ def main() -> int:
     lay_out(PAGES, rust=not args.without_rust)
     status = build(PAGES, out)
     matches.write(out / matches.FOLDER)
+    playground.copy(out)
     if RUST.is_dir() and not args.without_rust:
         shutil.copytree(RUST, out / "rust", dirs_exist_ok=True)
     if status == 0:

@@ -168,6 +168,16 @@ GROUPS: Final = (
             "rsoccer.evaluate.standings",
             "rsoccer.evaluate.ratings",
             "rsoccer.match_evaluation",
+            "rsoccer.benchmark",
+            "rsoccer.benchmark.protocol",
+            "rsoccer.benchmark.conditions",
+            "rsoccer.benchmark.measuring",
+            "rsoccer.benchmark.entry",
+            "rsoccer.benchmark.validation",
+            "rsoccer.benchmark.table",
+            "rsoccer.datasets",
+            "rsoccer.datasets.episodes",
+            "rsoccer.datasets.minari_dataset",
         ),
     ),
     Group(
@@ -217,6 +227,7 @@ GROUPS: Final = (
             "rsoccer.replay.sensed_poses",
             "rsoccer.replay.replay",
             "rsoccer.replay.recorder",
+            "rsoccer.replay.what_if",
             "rsoccer.replay.evaluation",
             "rsoccer.replay.film",
             "rsoccer.replay.events",
@@ -240,6 +251,7 @@ GROUPS: Final = (
             "rsoccer.protocols.tracked",
             "rsoccer.protocols.referee",
             "rsoccer.protocols.referee_state",
+            "rsoccer.protocols.reported_referee",
             "rsoccer.protocols.game_events",
             "rsoccer.protocols.simulator_control",
             "rsoccer.protocols.robot_control",
@@ -271,6 +283,19 @@ GROUPS: Final = (
             "rsoccer.bridge.live_page",
         ),
     ),
+    Group(
+        "Driving",
+        (
+            "rsoccer.drive",
+            "rsoccer.drive.settings",
+            "rsoccer.drive.network",
+            "rsoccer.drive.simulator",
+            "rsoccer.drive.session",
+            "rsoccer.drive.connection",
+            "rsoccer.drive.check",
+            "rsoccer.drive.delay",
+        ),
+    ),
     Group("Other interfaces", ("rsoccer.compat.robosim", "rsoccer.entities")),
 )
 """Every public module, once."""
@@ -287,6 +312,7 @@ Sphinx does without these libraries.
 
 PRIVATE: Final = (
     "rsoccer.__main__",
+    "rsoccer.benchmark.machine",
     "rsoccer.bridge.*",
     "rsoccer.checks",
     "rsoccer.cli",
@@ -295,6 +321,7 @@ PRIVATE: Final = (
     "rsoccer.compat",
     "rsoccer.compat.*",
     "rsoccer.demo",
+    "rsoccer.drive.*",
     "rsoccer.envs",
     "rsoccer.envs.*",
     "rsoccer.evaluate.*",

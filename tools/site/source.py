@@ -12,7 +12,7 @@ from typing import Final
 import rsoccer
 from benches.result_files import RESULTS
 from tools.paths import DOCS, ROOT
-from tools.site import api, tasks
+from tools.site import api, notebooks, playground, tasks
 
 TOP: Final = {
     "ARCHITECTURE.md": "architecture.md",
@@ -23,7 +23,9 @@ TOP: Final = {
 
 FOLDERS: Final = {
     "README.md": "index.md",
+    "benchmarks": "leaderboard.md",
     "examples": "examples.md",
+    "notebooks": notebooks.INDEX,
     "python/rsoccer": "api/index.md",
 }
 """Files and folders of the repository, and the pages that stand for them."""
@@ -42,12 +44,15 @@ def lay_out(folder: Path, rust: bool = True) -> None:
     shutil.copytree(DOCS, folder)
     for page in folder.rglob("*.md"):
         page.write_text(linked(page.read_text(), page.relative_to(folder)))
+    shown = folder / "playground.md"
+    shown.write_text(playground.shown(shown.read_text(), playground.PAGE.is_file()))
     for name, target in TOP.items():
         (folder / target).write_text(linked((ROOT / name).read_text(), Path(name)))
     pictures_only = shutil.ignore_patterns("*.csv", "*.json", "*.md")
     shutil.copytree(RESULTS, folder / "results", ignore=pictures_only)
     write_examples(folder / "examples.md")
     write_tasks(folder / "tasks")
+    notebooks.write(folder / notebooks.FOLDER)
     api.write(folder / "api", rust)
 
 

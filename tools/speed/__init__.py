@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from benches.instructions import STORED
 from benches.result_files import RESULTS, Figure, Machine, format_number, load
 from benches.scenarios import DEFAULT_ENGINE
+from benches.training_speed import STORED as TRAINING_SPEED
 from benches.whole_matches import STORED as WHOLE_MATCHES
 from tools.paths import ROOT
 from tools.speed.environments import interfaces
@@ -52,6 +53,11 @@ def instructions() -> str:
 def whole_matches() -> str:
     """Return the tables of whole matches under a referee; empty if they were not measured."""
     return WHOLE_MATCHES.read_text() if WHOLE_MATCHES.exists() else ""
+
+
+def training_speed() -> str:
+    """Return the table of the trainer's speed; empty if it was not measured."""
+    return TRAINING_SPEED.read_text() if TRAINING_SPEED.exists() else ""
 
 
 def feature() -> str:

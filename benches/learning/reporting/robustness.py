@@ -9,8 +9,8 @@ from benches.learning.reporting import cells
 from benches.learning.reporting.collection import Collected, Result, finished
 from benches.learning.reporting.statistics import Estimate, iqm
 from benches.learning.robust import GROUP, SHIPPED_GROUP, VARIANTS
-from benches.learning.senses import CONDITIONS
 from benches.markdown import table
+from rsoccer.benchmark.conditions import CONDITIONS
 
 Studied = Sequence[Collected]
 TRUTH = "truth"

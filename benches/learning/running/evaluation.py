@@ -5,12 +5,13 @@ from __future__ import annotations
 from typing import Any, Final
 
 from benches.learning.experiments import Protocol, Run
-from benches.learning.opponents import OFFICIAL, SCENARIOS, opponents_of
+from benches.learning.opponents import OFFICIAL, SCENARIOS
 from benches.learning.run_files import Folders
 from benches.learning.running.learned import Learned
 from benches.learning.running.workplace import reference
-from benches.learning.senses import CONDITIONS, MATCHES
 from rsoccer import Sensing
+from rsoccer.benchmark.conditions import CONDITIONS
+from rsoccer.benchmark.protocol import MATCHES, opponents_of
 from rsoccer.evaluate import Evaluation, evaluate
 from rsoccer.policies import PolicyLike
 from rsoccer.randomization import Ranges

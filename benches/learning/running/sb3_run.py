@@ -12,12 +12,12 @@ import numpy as np
 
 from benches.learning import sb3_settings
 from benches.learning.experiments import Protocol, Run
-from benches.learning.opponents import opponents_of
 from benches.learning.running.clock import restart_clock, timed
 from benches.learning.running.curves import thinned
 from benches.learning.running.evaluation import evaluated
 from benches.learning.running.learned import Learned
 from benches.learning.running.relu_actor import ReluActor
+from rsoccer.benchmark.protocol import opponents_of
 from rsoccer.registry import make_task
 
 FILE: Final = "actor.npz"

@@ -20,6 +20,7 @@ mod steering;
 mod streams;
 mod threads;
 mod viewpoint;
+mod vision_tracker;
 
 use pyo3::prelude::*;
 
@@ -54,6 +55,8 @@ mod _core {
     use crate::threads::Threads;
     #[pymodule_export]
     use crate::viewpoint::Viewpoint;
+    #[pymodule_export]
+    use crate::vision_tracker::VisionTracker;
 
     use pyo3::prelude::*;
     use pyo3::types::{PyDict, PyTuple};

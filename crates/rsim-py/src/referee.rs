@@ -5,17 +5,15 @@ use std::sync::{Mutex, PoisonError};
 use numpy::{Ix2, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadwriteArray};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
-use rsim_core::RobotModel;
 use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
 use rsim_referee::codes::{COMMANDS, Stage};
 use rsim_referee::config::{League, RefereeConfig};
 use rsim_referee::events::{Event, EventKind};
 use rsim_referee::features::FEATURES;
 use rsim_referee::game::Game;
-use rsim_referee::pitch::Pitch;
 use rsim_referee::sight::Layout;
 use rsim_referee::statistics::{Statistics, count_offense, offense_columns};
-use rsim_referee::{Decisions, Lines, RefereeError, Team, rules};
+use rsim_referee::{Decisions, RefereeError, Team, rules};
 
 use crate::arrays::{Rows, readable, sizes, values, writeable};
 use crate::config::SimConfig;
@@ -59,7 +57,7 @@ impl Referee {
         let decoded: RefereeConfig = serde_json::from_str(&rules)
             .map_err(|error| PyValueError::new_err(format!("rules: {error}")))?;
         let layout = layout(config)?;
-        let pitch = pitch(config);
+        let pitch = rsim_match::pitch(&config.0);
         let counted = Statistics::columns().len();
         let sizes = Sizes {
             game: Game::columns().len(),
@@ -283,42 +281,6 @@ fn numbers(world: usize, event: &Event) -> [f32; EVENT] {
 fn layout(config: &SimConfig) -> PyResult<Layout> {
     let sim = &config.0;
     Layout::new(&BALL_COLUMNS, &ROBOT_COLUMNS, sim.blue.len(), sim.yellow.len()).map_err(invalid)
-}
-
-/// Lines of the field of a configuration.
-pub(crate) fn lines(config: &SimConfig) -> Lines {
-    let field = &config.0.field;
-    Lines {
-        half_length: field.half_length(),
-        half_width: field.half_width(),
-        half_goal_width: field.goal_width / 2.0,
-        goal_height: field.goal_height,
-        area_depth: field.goal_area_depth,
-        half_area_width: field.goal_area_width / 2.0,
-        inner_area_depth: field.inner_area_depth,
-        half_inner_area_width: field.inner_area_width / 2.0,
-        line_width: field.line_width,
-        corner_leg: field.corner_leg,
-        goal_wall_thickness: field.goal_wall_thickness,
-        center_circle_radius: field.center_circle_radius,
-        penalty_mark_distance: field.penalty_mark_distance,
-        boundary_x: field.half_length() + field.goal_line_margin,
-        boundary_y: field.half_width() + field.touch_line_margin,
-        free_ball_x: field.free_ball_x,
-        free_ball_y: field.free_ball_y,
-    }
-}
-
-/// Numbers of a configuration that the rules read.
-fn pitch(config: &SimConfig) -> Pitch {
-    let sim = &config.0;
-    let radius = sim.robots().map(RobotModel::bounding_radius).fold(0.0, f32::max);
-    Pitch {
-        lines: lines(config),
-        robot_radius: radius,
-        ball_radius: sim.ball.radius,
-        time_step: sim.time_step,
-    }
 }
 
 /// Returns the numbers and switches of a preset of the rules, as JSON.

@@ -6,15 +6,13 @@ use numpy::{Ix2, PyArray3, PyArrayMethods, PyReadwriteArray};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
-use rsim_core::{Body, Drive, RobotModel};
 use rsim_referee::Team;
 use rsim_referee::game::Game;
 use rsim_referee::sight::Layout;
-use rsim_teams::{BallNumbers, COMMAND_COLUMNS, RobotNumbers, TeamConfig};
+use rsim_teams::{BallNumbers, COMMAND_COLUMNS, TeamConfig};
 
 use crate::arrays::{Rows, readable, sizes, values, writeable};
 use crate::config::SimConfig;
-use crate::referee::lines;
 use crate::threads::{Threads, write_rows};
 
 /// Most worlds whose commands the caller's thread computes alone.
@@ -40,13 +38,19 @@ impl ScriptedTeam {
         let Some(robot) = sim.robots().next() else {
             return Err(PyValueError::new_err("config: expected robots, got none"));
         };
+        let Some(numbers) = rsim_match::robot_numbers(robot) else {
+            let name = &robot.name;
+            return Err(PyValueError::new_err(format!(
+                "config: expected round robots with an omnidirectional drive and a mouth, got {name}"
+            )));
+        };
         let layout =
             Layout::new(&BALL_COLUMNS, &ROBOT_COLUMNS, n_blue, n_yellow).map_err(invalid)?;
-        let numbers = TeamConfig {
-            lines: lines(config),
+        let team = TeamConfig {
+            lines: rsim_match::lines(sim),
             layout,
             time_step: sim.time_step,
-            robot: robot_numbers(robot)?,
+            robot: numbers,
             ball: BallNumbers {
                 radius: sim.ball.radius,
                 sliding_deceleration: sim.ball.sliding_deceleration,
@@ -55,7 +59,7 @@ impl ScriptedTeam {
             },
             skill,
         };
-        let team = rsim_teams::ScriptedTeam::new(&numbers).map_err(invalid)?;
+        let team = rsim_teams::ScriptedTeam::new(&team).map_err(invalid)?;
         let memory_size = team.memory_columns().len();
         let config = config.clone();
         let row_size = config.0.row_size();
@@ -144,28 +148,6 @@ impl ScriptedTeam {
         let Self { config, skill, .. } = slf.get();
         (slf.get_type().into_any(), (config.clone(), *skill))
     }
-}
-
-/// Numbers of a robot with an omnidirectional drive, a kicker and a dribbler.
-fn robot_numbers(robot: &RobotModel) -> PyResult<RobotNumbers> {
-    let (Body::Round { radius, front_distance }, Drive::Omni(drive), Some(mouth)) =
-        (robot.body, robot.drive, &robot.mouth)
-    else {
-        let name = &robot.name;
-        return Err(PyValueError::new_err(format!(
-            "config: expected round robots with an omnidirectional drive and a mouth, got {name}"
-        )));
-    };
-    Ok(RobotNumbers {
-        radius,
-        front_distance,
-        max_speed: drive.max_speed,
-        max_acceleration: drive.max_acceleration,
-        max_deceleration: drive.max_deceleration,
-        max_angular_velocity: drive.max_angular_velocity,
-        max_kick_speed: mouth.max_kick_speed,
-        max_chip_speed: mouth.max_chip_speed,
-    })
 }
 
 fn invalid(error: impl std::fmt::Display) -> PyErr {

@@ -70,13 +70,15 @@ class Arena:
             observers: robots with a policy, in the order of a state row; None for none.
 
         Raises:
-            ValueError: senses that forecast.
+            ValueError: senses that forecast, or cameras of each team's own.
         """
         self.task = task
         self.sensing = Sensing(frame_rate=FRAME_RATE) if sensing is None else sensing
         if self.sensing.forecast:
             # All ports tell the same state; only a team itself knows what it has sent.
             raise ValueError("sensing.forecast: expected 0 in a served match, whose teams forecast")
+        if self.sensing.own_cameras:
+            raise ValueError("sensing.own_cameras: expected 0 in a served match, with one vision")
         self.config = task.config.with_sensing(self.sensing)
         rng = WorldRng.seeded(seed, 1)
         viewpoint = new_viewpoint(task, [] if observers is None else observers)

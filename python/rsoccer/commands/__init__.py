@@ -9,18 +9,22 @@ from typing import Annotated, Any
 
 from tyro.conf import subcommand
 
+from rsoccer.commands.benchmark import Benchmark
 from rsoccer.commands.convert import Convert
 from rsoccer.commands.distill import CommandDistillArgs, Distill
+from rsoccer.commands.drive import Drive
 from rsoccer.commands.evaluate import Evaluate
 from rsoccer.commands.export import Export
 from rsoccer.commands.identify import Identify
 from rsoccer.commands.imports import imported
 from rsoccer.commands.list import List
 from rsoccer.commands.play import Play
+from rsoccer.commands.record import Record
 from rsoccer.commands.serve import Serve
 from rsoccer.commands.tournament import Tournament
 from rsoccer.commands.train import CommandArgs, Train
 from rsoccer.commands.watch import Watch
+from rsoccer.commands.what_if import WhatIf
 from rsoccer.plugins import import_modules
 from rsoccer.train import Args
 from rsoccer.train.distillation import DistillArgs
@@ -48,11 +52,15 @@ def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at
         | Annotated[Evaluate, subcommand("evaluate")]
         | Annotated[Tournament, subcommand("tournament")]
         | Annotated[Export, subcommand("export")]
+        | Annotated[Benchmark, subcommand("benchmark")]
+        | Annotated[Record, subcommand("record")]
         | Annotated[Identify, subcommand("identify")]
         | Annotated[Watch, subcommand("watch")]
+        | Annotated[WhatIf, subcommand("what-if")]
         | Annotated[Play, subcommand("play")]
         | Annotated[Convert, subcommand("convert")]
         | Annotated[Serve, subcommand("serve")]
+        | Annotated[Drive, subcommand("drive")]
     )
 
 

@@ -28,6 +28,7 @@ from rsoccer.files import write_atomically
 from rsoccer.lineup import opponents_of
 from rsoccer.replay.evaluation import record_last_match
 from rsoccer.replay.replay import SUFFIX
+from rsoccer.sources import NETWORK_SIMULATORS
 from rsoccer.task import Task
 
 
@@ -51,7 +52,7 @@ class Evaluate(Sources, Imports):
     task_options: Annotated[Mapping[str, Any], TASK_OPTIONS] = field(default_factory=dict)
     """options of the task that is named (`rsoccer list` prints them), such as n_opponents=2"""
     worlds: int = 50
-    """matches played at once"""
+    """matches played at once; one with a simulator on the network"""
     threads: Annotated[int | None, arg(metavar="INT", help_behavior_hint="(default: all)")] = None
     """threads of the simulator"""
     json: Annotated[Path | None, arg(metavar="PATH", help_behavior_hint="")] = None
@@ -82,7 +83,7 @@ class Evaluate(Sources, Imports):
                 self.matches,
                 self.seed,
                 task=task,
-                worlds=self.worlds,
+                worlds=1 if self.simulator in NETWORK_SIMULATORS else self.worlds,
                 threads=self.threads,
                 simulator=self.simulator,
                 sensing=self.sensing,

@@ -11,7 +11,7 @@ from tyro.conf import arg
 
 from rsoccer.commands.task_options import RANDOMIZATION
 
-_SIMULATOR = arg(metavar="MODULE:NAME", help_behavior_hint="(default: the package's own)")
+_SIMULATOR = arg(metavar="NAME|MODULE:NAME", help_behavior_hint="(default: the package's own)")
 _SENSING = arg(
     metavar="PRESET|FILE|MODULE:NAME", help_behavior_hint="(default: they know it exactly)"
 )
@@ -22,7 +22,8 @@ class Sources:
     """Options of all commands that play matches, in the words of `rsoccer train`."""
 
     simulator: Annotated[str | None, _SIMULATOR] = None
-    """function (config, worlds, threads) that makes the simulator"""
+    """grsim, firasim or ssl-simulation on this machine, or a function (config, worlds, threads)
+    that makes the simulator"""
     sensing: Annotated[str | None, _SENSING] = None
     """senses of the robots: noise, delay and loss"""
     randomization: Annotated[Mapping[str, Any], RANDOMIZATION] = field(default_factory=dict)

@@ -13,13 +13,15 @@ from rsoccer.commands.task_options import named_task
 from rsoccer.human.teams import script_of
 from rsoccer.lineup import DEFAULT_TASK, task_for
 from rsoccer.policies import trained
+from rsoccer.policies.own_code import short_name
 from rsoccer.policies.policy_file import SUFFIX, SUFFIXES
 from rsoccer.replay.replay import SUFFIX as REPLAY_SUFFIX
 from rsoccer.task import Task
 
 _SUBJECT_HELP = (
     "a policy: a name that `rsoccer list` prints, or the path of a policy file, which plays as it "
-    "was trained unless :mean or :sample follows; or a task, whose policy --policy names"
+    "was trained unless :mean or :sample follows, or module:name of code of your own; or a task, "
+    "whose policy --policy names"
 )
 SUBJECT = arg(metavar="POLICY|TASK", help=_SUBJECT_HELP, help_behavior_hint="")
 SUBJECT_OR_REPLAY = arg(
@@ -75,9 +77,9 @@ def check_policy_names(names: Iterable[str | None]) -> None:
     """
     for name in names:
         ending = "" if name is None else Path(name).suffix
-        if name is None or not ending or policies.is_registered(name):
+        if name is None or not ending or any(end in name for end in SUFFIXES):
             continue
-        if any(end in name for end in SUFFIXES):
+        if policies.is_registered(name) or policies.is_module_text(name):
             continue
         if ending == REPLAY_SUFFIX:
             raise ValueError(
@@ -102,9 +104,11 @@ def team_name(player: str) -> str:
     """Return the name of a policy on the scoreboard: for a file its folder's name.
 
     Args:
-        player: name of a policy, or path of its file.
+        player: name of a policy, path of its file, or "module:name" of code.
     """
     if policies.is_registered(player):
         return player.upper()
+    if policies.is_module_text(player):
+        return short_name(player).upper()
     path = Path(player)
     return (path.parent.name or path.stem if path.suffix else player).upper()

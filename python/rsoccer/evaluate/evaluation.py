@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import groupby
 
+from rsoccer.evaluate.html import html_table, paragraph
 from rsoccer.evaluate.results import Interval, Results
 from rsoccer.evaluate.tables import Cells, align
 
@@ -54,6 +55,10 @@ class Evaluation(Results):
     def __str__(self) -> str:
         return table([self])
 
+    def _repr_html_(self) -> str:
+        """The tables of `print`, for notebooks."""
+        return paragraph(self.task) + "".join(html_table(rows, 2) for rows in _tables([self]))
+
 
 def table(evaluations: Iterable[Evaluation]) -> str:
     """Return evaluations as lines of text: a header, one line each, aligned columns.
@@ -67,13 +72,18 @@ def table(evaluations: Iterable[Evaluation]) -> str:
     Returns:
         The tables, separated by an empty line.
     """
+    return "\n\n".join(align(rows, 2) for rows in _tables(evaluations))
+
+
+def _tables(evaluations: Iterable[Evaluation]) -> list[list[Cells]]:
+    """Cells of all tables, a header first."""
     tables = []
     for header, group in groupby(evaluations, _header):
         rows = list(group)
-        tables.append(align([header, *map(_row, rows)], 2))
+        tables.append([header, *map(_row, rows)])
         if _of_teams(rows[0]):
-            tables.append(align([_team_header(rows[0]), *map(_team_row, rows)], 2))
-    return "\n\n".join(tables)
+            tables.append([_team_header(rows[0]), *map(_team_row, rows)])
+    return tables
 
 
 def _header(evaluation: Evaluation) -> Cells:

@@ -20,7 +20,7 @@ from rsoccer.evaluate.ratings import rate
 from rsoccer.evaluate.results import MIN_PER_SIDE
 from rsoccer.evaluate.schedule import first_seed, matches_per_side, processors
 from rsoccer.evaluate.standings import Standing, Standings
-from rsoccer.evaluate.tournament_report import draw, report
+from rsoccer.evaluate.tournament_report import draw, report, report_html
 from rsoccer.lineup import task_for
 from rsoccer.policies import PolicyLike, check_policy_like, is_registered, make_policy, name_of
 from rsoccer.policies.base import Policy
@@ -56,6 +56,10 @@ class Tournament(Standings):
 
     def __str__(self) -> str:
         return report(self)
+
+    def _repr_html_(self) -> str:
+        """Ratings, and scores as a heat map, for notebooks."""
+        return report_html(self)
 
 
 def tournament(

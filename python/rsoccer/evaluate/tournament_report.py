@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rsoccer.evaluate.cycles import in_words
+from rsoccer.evaluate.html import html_table, paragraph
 from rsoccer.evaluate.ratings import ANCHOR_RATING
 from rsoccer.evaluate.results import MIN_PER_SIDE
 from rsoccer.evaluate.standings import Standings
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 BAR_COLOR = "#2f6db3"
+MATRIX = "goal score of the row against the column"
 
 
 def report(result: Standings) -> str:
@@ -27,18 +29,45 @@ def report(result: Standings) -> str:
     Args:
         result: the tournament.
     """
-    title = f"{result.task}, {result.matches} matches a pair, half from each side"
-    found = f"cycles of wins (95% intervals above 0): {in_words(result.cycles)}"
-    if result.low is None:
-        found = f"intervals and cycles of wins need {2 * MIN_PER_SIDE} matches a pair or more"
     return "\n\n".join(
         (
-            title,
+            _title(result),
             align(_ratings(result), 1),
-            "goal score of the row against the column\n" + align(_matrix(result), 1),
-            found,
+            f"{MATRIX}\n{align(_matrix(result), 1)}",
+            _cycles(result),
         )
     )
+
+
+def report_html(result: Standings) -> str:
+    """Return the same as HTML, with goal scores in color.
+
+    Args:
+        result: the tournament.
+    """
+    shades = [
+        (None, *(None if i == j else score for j, score in enumerate(scores)))
+        for i, scores in enumerate(result.scores)
+    ]
+    parts = (
+        paragraph(_title(result)),
+        html_table(_ratings(result), 1),
+        paragraph(MATRIX),
+        html_table(_matrix(result), 1, shades),
+        paragraph(_cycles(result)),
+    )
+    return "".join(parts)
+
+
+def _title(result: Standings) -> str:
+    return f"{result.task}, {result.matches} matches a pair, half from each side"
+
+
+def _cycles(result: Standings) -> str:
+    """Line with the cycles, if the matches suffice for intervals."""
+    if result.low is None:
+        return f"intervals and cycles of wins need {2 * MIN_PER_SIDE} matches a pair or more"
+    return f"cycles of wins (95% intervals above 0): {in_words(result.cycles)}"
 
 
 def _ratings(result: Standings) -> list[tuple[str, ...]]:
@@ -104,7 +133,7 @@ def _draw_matrix(axes: Axes, result: Standings) -> None:
             axes.text(column, row, text, ha="center", va="center", color=color, fontsize=9)
     axes.set_xticks(range(len(labels)), labels, rotation=30, ha="right", rotation_mode="anchor")
     axes.set_yticks(range(len(labels)), labels)
-    axes.set_title("goal score of the row against the column", fontsize=10)
+    axes.set_title(MATRIX, fontsize=10)
 
 
 def _draw_ratings(axes: Axes, result: Standings) -> None:

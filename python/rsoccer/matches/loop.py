@@ -468,6 +468,35 @@ class Matches:
         if listener in self._listeners:
             self._listeners.remove(listener)
 
+    def take_over(self, state: Mapping[str, Array], seed: Seed = None) -> Floats:
+        """Continue from a state of matches of the same task with other controllers.
+
+        Bodies, clock, score, rules and senses go on. Policies begin anew, with the memory that they
+        have at the start of an episode, and so does the history of learners. Returns of the
+        episode count from here.
+
+        Args:
+            state: what `state_dict` of the other matches returned.
+            seed: seed of the policies, as for `reset`.
+
+        Returns:
+            (n, agents, o) observations of all worlds, a new array.
+
+        Raises:
+            TypeError: a simulator that has no `restore`.
+            ValueError: a state of another task, of other senses or of another number of worlds.
+                These matches have begun other episodes.
+        """
+        self.reset(seed)
+        anew = self._state()
+        names = {*anew.shared}
+        kept = {name: array for name, array in anew.read().items() if name not in names}
+        self.load_state_dict({**{n: a for n, a in state.items() if n in names}, **kept})
+        self._returns[...] = 0.0
+        self._observe()
+        self._stack.begin(self._past, slice(None), self._learners.select(self._observations))
+        return self._observed()
+
     def close(self) -> None:
         """Release what the simulator holds, such as a socket, if it holds anything."""
         close(self._simulator)
@@ -721,7 +750,9 @@ class Matches:
             **self._past,
         }
         groups = self.assignment.groups
-        return MatchState.of(self._simulator, self.play, groups, self._streams(), own)
+        shared = ("simulator", *self.play.arrays(), "done", "begun", "rng.task", "rng.start")
+        shared += ("rng.senses", "rng.randomization")
+        return MatchState.of(self._simulator, self.play, groups, self._streams(), own, shared)
 
     def _streams(self) -> dict[str, WorldRng]:
         """All random streams by name."""

@@ -23,6 +23,8 @@ class MatchState:
     """(n, ...) arrays by name."""
     streams: dict[str, WorldRng]
     """(n,) random streams by name."""
+    shared: Sequence[str]
+    """Names of what does not depend on the controllers."""
 
     @classmethod
     def of(
@@ -32,6 +34,7 @@ class MatchState:
         groups: Sequence[PolicyGroup],
         streams: dict[str, WorldRng],
         others: dict[str, Array],
+        shared: Sequence[str],
     ) -> "MatchState":
         """Collect the state of some matches.
 
@@ -41,6 +44,7 @@ class MatchState:
             groups: policies with their memory.
             streams: all random streams by name.
             others: further arrays by name.
+            shared: names of what does not depend on the controllers.
 
         Returns:
             The parts; arrays are not copied.
@@ -48,7 +52,7 @@ class MatchState:
         arrays = play.arrays() | others
         for group in groups:
             arrays |= group.arrays()
-        return cls(simulator, arrays, streams)
+        return cls(simulator, arrays, streams, shared)
 
     def read(self) -> dict[str, Array]:
         """Return copies of all arrays by name.

@@ -42,7 +42,7 @@ def new_senses(
         stepper: the simulator.
         worlds: number of its worlds.
         ranges: ranges of the numbers of a `Sensing`.
-        viewpoint: the observers: only their teams forecast.
+        viewpoint: the observers: only their teams forecast, unless each has cameras of its own.
         frame: frame of n worlds; copied.
         rng: (n,) random streams.
 
@@ -53,15 +53,18 @@ def new_senses(
     if sensing is None:
         return None
     if isinstance(sensing, Sensing):
-        differ = teams_differ(sensing, ranges)
-        observing = tuple(np.unique(viewpoint.teams).tolist()) if differ else None
+        observing: tuple[int, ...] | None = None
+        if _may_be_on("own_cameras", sensing, ranges):
+            observing = (0, 1)
+        elif teams_differ(sensing, ranges):
+            observing = tuple(np.unique(viewpoint.teams).tolist())
         own = sensing_stepper(stepper)
         return SimulatedSenses.new(own, worlds, ranges, observing, frame, rng)
     return ModelSenses.new(sensing, frame, rng)
 
 
 def teams_differ(sensing: SensorModel | Sensing | None, ranges: NumberRanges | None) -> bool:
-    """Return whether each team that observes has a forecast of its own.
+    """Return whether teams may know different states, by cameras or forecasts of their own.
 
     Args:
         sensing: what robots know of the true state.
@@ -69,7 +72,13 @@ def teams_differ(sensing: SensorModel | Sensing | None, ranges: NumberRanges | N
     """
     if not isinstance(sensing, Sensing):
         return False
-    drawn = () if ranges is None else sum((columns for columns, _ in ranges.drawn), ())
-    may_forecast = sensing.forecast > 0.0 or SENSING_NUMBERS.index("forecast") in drawn
     is_shared = sensing.forecast_others >= ON and ranges is None
-    return may_forecast and not is_shared
+    return _may_be_on("own_cameras", sensing, ranges) or (
+        _may_be_on("forecast", sensing, ranges) and not is_shared
+    )
+
+
+def _may_be_on(name: str, sensing: Sensing, ranges: NumberRanges | None) -> bool:
+    """Whether a switch is on, or may be in an episode that draws it."""
+    drawn = () if ranges is None else sum((columns for columns, _ in ranges.drawn), ())
+    return getattr(sensing, name) > 0.0 or SENSING_NUMBERS.index(name) in drawn

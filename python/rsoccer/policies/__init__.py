@@ -17,6 +17,8 @@
 | `passer` | SSL | passes to its teammate and receives passes |
 | `strike` | SSL | wins the ball, and shoots past the opponents |
 | `weave` | SSL | dribbles through the gates of the dribbling task |
+
+"module:name" is code of one's own: a policy, its class, or a function of the task that makes one.
 """
 
 from __future__ import annotations
@@ -28,6 +30,7 @@ from typing import TYPE_CHECKING
 from rsoccer.policies import names
 from rsoccer.policies.base import Policy, PolicyInput
 from rsoccer.policies.names import list_policies, list_policies_with_skill, register_policy
+from rsoccer.policies.own_code import is_module_text, make_from_module
 from rsoccer.policies.policy_file import ONNX_SUFFIX, SUFFIX, SUFFIXES
 from rsoccer.registry import as_task, make_task
 from rsoccer.task import Task
@@ -37,11 +40,11 @@ if TYPE_CHECKING:
     from rsoccer.policies.onnx_policy import OnnxPolicy
 
 __all__ = ["Policy", "PolicyInput", "list_policies", "list_policies_with_skill"]
-__all__ += ["PolicyLike", "check_policy_like", "file_of", "is_registered", "make_policy", "name_of"]
-__all__ += ["register_policy", "trained_on"]
+__all__ += ["PolicyLike", "check_policy_like", "file_of", "is_module_text", "is_registered"]
+__all__ += ["make_policy", "name_of", "register_policy", "trained_on"]
 
 PolicyLike = str | os.PathLike[str] | Policy
-"""A policy, its name (`zero`, `ou`, ...), or the path of its file."""
+"""A policy, its name (`zero`, `ou`, ...), the path of its file, or "module:name" of code."""
 
 
 def check_policy_like(name: str, value: object) -> None:
@@ -76,8 +79,9 @@ def make_policy(policy: PolicyLike, task: Task | str) -> Policy:
     """Make a policy for the robots of a task.
 
     Args:
-        policy: a policy, which is returned as it is; a name; or the path of a policy file or of
-            an ONNX file.
+        policy: a policy, which is returned as it is; a name; the path of a policy file or of an
+            ONNX file; or "module:name" of a policy, its class, or a function of the task that makes
+            one.
             "best" is the trained policy of the task, see `rsoccer.policies.trained`.
             "best:robust" is the one that has learned with late and noisy senses. "scripted:0.5"
             sets a skill. "policy.safetensors:mean", "best:sample" and "best:robust:mean" choose
@@ -89,8 +93,9 @@ def make_policy(policy: PolicyLike, task: Task | str) -> Policy:
 
     Raises:
         FileNotFoundError: no such policy file.
-        ImportError: a package that offers the policy cannot be loaded, see `rsoccer.plugins`.
-        RuntimeError: the maker of a registered policy raises an error other than ValueError.
+        ImportError: a package that offers the policy cannot be loaded, see `rsoccer.plugins`; a
+            module that a text names does not exist or lacks the name.
+        RuntimeError: the maker of a policy of a user raises an error other than ValueError.
         TypeError: not a `PolicyLike`.
         ValueError: an unknown name, a wrong skill or mode, or a policy that does not fit the task.
 
@@ -103,7 +108,9 @@ def make_policy(policy: PolicyLike, task: Task | str) -> Policy:
     if not isinstance(policy, Policy):
         text = _text(policy)
         name, colon, detail = text.partition(":")
-        if not is_registered(text):
+        if is_module_text(text):
+            policy = make_from_module(text, task)
+        elif not is_registered(text):
             policy = _load(text, task)
         elif name == "best":
             policy = _make_best(task, detail if colon else None)
@@ -116,7 +123,8 @@ def make_policy(policy: PolicyLike, task: Task | str) -> Policy:
 def trained_on(policy: PolicyLike) -> Task | None:
     """Return the task that a policy was trained on, without options that matter in training alone.
 
-    It is None for scripts and noise, and for `best`, which has a policy for each of several tasks.
+    It is None for scripts, noise and code ("module:name"), and for `best`, which has a policy for
+    each of several tasks.
 
     Args:
         policy: a policy, its name, or the path of its file.
@@ -129,6 +137,8 @@ def trained_on(policy: PolicyLike) -> Task | None:
     if is_registered(policy):
         return None
     if not isinstance(policy, Policy):
+        if is_module_text(_text(policy)):
+            return None
         policy = _load(_text(policy))
     if policy.task_name is None:
         return None
@@ -142,14 +152,25 @@ def trained_on(policy: PolicyLike) -> Task | None:
         task = make_task(policy.task_name, **options)
     except TypeError as error:
         raise ValueError(f"policy: trained on a task with other options: {error}") from error
+    _check_companions(task)
+    return task
+
+
+def _check_companions(task: Task) -> None:
+    """Refuse policies of a task of a policy file that are missing, or that are code."""
     for player in task.default_controllers().values():
-        path = file_of(player) if isinstance(player, str) else None
+        if not isinstance(player, str):
+            continue
+        if is_module_text(player):  # a file must not decide what runs
+            raise ValueError(
+                f"policy: trained beside the code {player}; name a task for it to play"
+            )
+        path = file_of(player)
         if path is not None and not path.exists():
             raise ValueError(
                 f"policy: trained beside the policy {player}, which does not exist here; name a "
                 "task for it to play"
             )
-    return task
 
 
 def name_of(policy: PolicyLike) -> str:
@@ -175,12 +196,14 @@ def _make_best(task: Task, detail: str | None) -> Network:
 
 
 def file_of(policy: str) -> Path | None:
-    """Return the file that a name stands for; None for a policy that is registered.
+    """Return the file that a name stands for; None for a policy that is registered, and for code.
 
     Args:
-        policy: a name, or the path of a file, which a mode may follow.
+        policy: a name, "module:name", or the path of a file, which a mode may follow.
     """
-    return None if is_registered(policy) else Path(_split_mode(policy)[0])
+    if is_registered(policy) or is_module_text(policy):
+        return None
+    return Path(_split_mode(policy)[0])
 
 
 def _load(text: str, task: Task | None = None) -> Network | OnnxPolicy:
@@ -204,9 +227,9 @@ def _expected(path: str) -> str:
     if inside.is_file():
         return f"it is a folder; the policy file in it is {inside}"
     return (
-        f"expected one of {list_policies()}, or the path of a policy file (*{SUFFIX}, "
-        f"*{ONNX_SUFFIX}); a policy of your own is known after the import of the module that "
-        "registers it, as with --import MODULE"
+        f"expected one of {list_policies()}, the path of a policy file (*{SUFFIX}, "
+        f"*{ONNX_SUFFIX}), or MODULE:NAME of your own code; a policy of your own has a name after "
+        "the import of the module that registers it, as with --import MODULE"
     )
 
 

@@ -84,7 +84,7 @@ def register_policy(name: str, maker: Maker) -> None:
         raise ValueError(f"name: expected letters, digits and underscores, got {name!r}")
     if name in RESERVED or _MAKERS.get(name, maker) is not maker:
         raise ValueError(f"name: {name!r} is already taken")
-    _check_maker(maker)
+    check_maker(maker)
     _MAKERS[name] = maker
 
 
@@ -139,11 +139,28 @@ def make(name: str, task: Task, skill: str | None = None) -> Policy:
     """
     maker = _MAKERS[name]
     arguments = {} if skill is None else {"skill": _number(name, maker, skill)}
+    return (
+        maker(task, **arguments) if name in _BUILT_IN else make_with(name, maker, task, **arguments)
+    )
+
+
+def make_with(name: str, maker: Maker, task: Task, **arguments: float) -> Policy:
+    """Make a policy by a maker of a user, whose errors name it.
+
+    Args:
+        name: what the user called the maker by.
+        maker: a function or a class.
+        task: the task that is played.
+        **arguments: a skill, if one was given.
+
+    Raises:
+        RuntimeError: the maker raises an error other than ValueError.
+        TypeError: the maker returns something else than a policy.
+        ValueError: the maker refuses the task.
+    """
     try:
         policy = maker(task, **arguments)
     except Exception as error:
-        if name in _BUILT_IN:
-            raise
         kind = ValueError if isinstance(error, ValueError) else RuntimeError
         raise kind(f"policy {name!r}: its maker raises {type(error).__name__}: {error}") from error
     if not isinstance(policy, Policy):
@@ -173,7 +190,15 @@ def _register_entry_point(name: str, maker: Any) -> None:  # noqa: ANN401  (what
         ) from error
 
 
-def _check_maker(maker: object) -> None:
+def check_maker(maker: object) -> None:
+    """Refuse what cannot be called with a task to make a policy.
+
+    Args:
+        maker: a class or a function.
+
+    Raises:
+        TypeError: something else, a class of other objects, or one that takes other arguments.
+    """
     wrong_class = isinstance(maker, type) and not issubclass(maker, Policy)
     if not callable(maker) or wrong_class:
         raise TypeError(

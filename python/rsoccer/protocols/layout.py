@@ -41,6 +41,9 @@ class WireLayout:
         yellow_ids: uniform numbers of the yellow robots by slot; None for 0, 1, ...
         blue_on_positive_half: whether blue's goal is at +x on the wire. In the package it is at -x,
             so then positions and directions are rotated by 180 degrees.
+        colors_exchanged: whether the robots that are blue in the package are yellow on the wire, so
+            that a policy of blue drives a yellow team. The attributes of teams are those of the
+            package, and `blue_on_positive_half` is about blue on the wire.
 
     Example:
         >>> from rsoccer import SimConfig
@@ -54,6 +57,7 @@ class WireLayout:
     blue_ids: tuple[int, ...] | None = None
     yellow_ids: tuple[int, ...] | None = None
     blue_on_positive_half: bool = False
+    colors_exchanged: bool = False
     ids: tuple[tuple[int, ...], tuple[int, ...]] = field(init=False, repr=False)
     """Uniform numbers of blue and of yellow, by slot within the team."""
 
@@ -66,6 +70,7 @@ class WireLayout:
                 negative or too large.
         """
         checks.boolean("blue_on_positive_half", self.blue_on_positive_half)
+        checks.boolean("colors_exchanged", self.colors_exchanged)
         given = (self.blue_ids, self.yellow_ids)
         counts = (self.config.n_blue, self.config.n_yellow)
         ids = tuple(
@@ -77,27 +82,35 @@ class WireLayout:
     @property
     def sign(self) -> float:
         """Factor of x and y between the wire and the package: -1 if they are rotated, else 1."""
-        return -1.0 if self.blue_on_positive_half else 1.0
+        return -1.0 if self.blue_on_positive_half != self.colors_exchanged else 1.0
 
     @cached_property
     def _slots(self) -> dict[tuple[int, int], int]:
         return {self.identity(slot): slot for slot in range(self.config.n_robots)}
 
     def identity(self, slot: int) -> tuple[int, int]:
-        """Return team and uniform number of a robot.
+        """Return team on the wire and uniform number of a robot.
 
         Args:
             slot: index of the robot in a state row.
         """
         n_blue = self.config.n_blue
         team = BLUE if slot < n_blue else YELLOW
-        return team, self.ids[team][slot - n_blue * team]
+        return self.exchanged(team), self.ids[team][slot - n_blue * team]
+
+    def exchanged(self, team: int) -> int:
+        """Return a team of the package on the wire, or the reverse.
+
+        Args:
+            team: `BLUE` or `YELLOW`.
+        """
+        return TEAMS[1 - team] if self.colors_exchanged else team
 
     def slot(self, team: int, robot_id: int) -> int:
         """Return the index of a robot in a state row.
 
         Args:
-            team: `BLUE` or `YELLOW`.
+            team: `BLUE` or `YELLOW`, on the wire.
             robot_id: uniform number.
 
         Raises:
@@ -105,7 +118,8 @@ class WireLayout:
         """
         slot = self._slots.get((team, robot_id))
         if slot is None:
-            numbers = f"{list(self.ids[team])} for {TEAM_NAMES[team]}"
+            ids = self.ids[self.exchanged(team)]
+            numbers = f"{list(ids)} for {TEAM_NAMES[team]}"
             raise MessageError(Code.UNKNOWN_ROBOT, f"id: expected one of {numbers}, got {robot_id}")
         return slot
 
@@ -113,10 +127,11 @@ class WireLayout:
         """Return the indices of a team's robots in a state row.
 
         Args:
-            team: `BLUE` or `YELLOW`.
+            team: `BLUE` or `YELLOW`, on the wire.
         """
         n_blue = self.config.n_blue
-        return range(n_blue) if team == BLUE else range(n_blue, self.config.n_robots)
+        is_blue = self.exchanged(team) == BLUE
+        return range(n_blue) if is_blue else range(n_blue, self.config.n_robots)
 
     def rotated(self, vectors: Array) -> Doubles:
         """Convert vectors x, y from the package to the wire or back.

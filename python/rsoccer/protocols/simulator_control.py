@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Final
@@ -67,6 +67,53 @@ def read_command(
     _read_control(layout, message.control, result)
     _read_config(layout, message.config, result)
     return result
+
+
+def to_command(
+    layout: WireLayout,
+    frame: Frame,
+    world: int = 0,
+    *,
+    removed: Iterable[tuple[int, int]] = (),
+) -> simulation_pb2.Command:
+    """Return the message that puts ball and robots where a state has them.
+
+    Args:
+        layout: the match.
+        frame: states.
+        world: index of the world.
+        removed: team and uniform number, on the wire, of further robots to take off the field.
+
+    Returns:
+        The message. All numbers of each body are given, since simulators refuse parts.
+
+    Raises:
+        ValueError: a frame of other teams, or no such world.
+    """
+    layout.check_frame(frame, world)
+    message = simulation_pb2.Command()
+    ball, robots = message.control.teleport_ball, frame.robots
+    ball.x, ball.y = layout.rotated(frame.ball.position[world]).tolist()
+    ball.vx, ball.vy = layout.rotated(frame.ball.velocity[world]).tolist()
+    ball.z, ball.vz = float(frame.ball.height[world]), float(frame.ball.vertical_velocity[world])
+    positions = layout.rotated(robots.position[world]).tolist()
+    velocities = layout.rotated(robots.velocity[world]).tolist()
+    angles = layout.angle_to_wire(robots.heading[world]).tolist()
+    colors = {team: color for color, team in _TEAMS.items()}
+    for slot in range(layout.config.n_robots):
+        team, number = layout.identity(slot)
+        robot = message.control.teleport_robot.add()
+        robot.id.id, robot.id.team = number, colors[team]
+        robot.present = bool(robots.absent[world, slot] == 0)
+        if robot.present:
+            robot.x, robot.y = positions[slot]
+            robot.orientation = angles[slot]
+            robot.v_x, robot.v_y = velocities[slot]
+            robot.v_angular = float(robots.angular_velocity[world, slot])
+    for team, number in removed:
+        robot = message.control.teleport_robot.add(present=False)
+        robot.id.id, robot.id.team = number, colors[team]
+    return message
 
 
 def _read_control(

@@ -12,5 +12,6 @@ from rsoccer.replay.container import ReplayError
 from rsoccer.replay.recorded import Episode
 from rsoccer.replay.recorder import Recorder, record_replay
 from rsoccer.replay.replay import Replay
+from rsoccer.replay.what_if import what_if
 
-__all__ = ["Episode", "Recorder", "Replay", "ReplayError", "record_replay"]
+__all__ = ["Episode", "Recorder", "Replay", "ReplayError", "record_replay", "what_if"]

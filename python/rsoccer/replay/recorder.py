@@ -124,6 +124,10 @@ class Recorder:
         """
         if self.matches.play.steps[self.world]:
             raise RuntimeError("begin after a step: call it directly after reset")
+        self.begin_here()
+
+    def begin_here(self) -> None:
+        """Add the present state as the first one of an episode, of which a part has been played."""
         self._close("", {})
         self._start, self._ended = len(self._rows), False
         self._add_frame(np.zeros_like(self.matches.play.commands[self.world]), {})

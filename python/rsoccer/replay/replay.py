@@ -10,6 +10,7 @@ from rsoccer.files import write_atomically
 from rsoccer.matches import Matches
 from rsoccer.randomization import Ranges
 from rsoccer.replay import file_format, page
+from rsoccer.replay.branch import branch
 from rsoccer.replay.container import ReplayError
 from rsoccer.replay.recorded import Recorded
 from rsoccer.replay.resume import resume
@@ -152,6 +153,50 @@ class Replay(Recorded):
             simulator=simulator,
             sensing=sensing,
             randomization=randomization,
+        )
+
+    def branch(
+        self,
+        frame: int,
+        controllers: Controllers,
+        *,
+        seed: int = 0,
+        task: Task | None = None,
+        recorded: Controllers | None = None,
+        sensing: SensingSource | None = None,
+    ) -> Matches:
+        """Go on from any frame with other controllers, as matches for a step loop of one's own.
+
+        Up to the frame the recorded controllers play again, from the last snapshot before it, so
+        that clock, score, referee, senses and each bit of the physics are those of the recording.
+        The new policies begin anew. Where the episode has no snapshot before the frame, a new
+        episode begins with the bodies of the frame, which are rounded.
+
+        Args:
+            frame: index of a frame at which the match has not ended.
+            controllers: controllers from there on, as for `Matches`; `LEARN` for robots that your
+                own loop moves.
+            seed: seed of the new policies, and of all else without a snapshot.
+            task: the task; by default made from its name and options.
+            recorded: controllers of the recording, where a policy has no name.
+            sensing: what robots know, where the recording had a sensor model of one's own.
+
+        Returns:
+            Matches of one world at that frame. `autoreset` is "disabled".
+
+        Raises:
+            ReplayError: no such frame, one at which the match has ended, a recording that cannot
+                be played again up to it, another version of the physics, or an argument that does
+                not fit or has to be given.
+        """
+        return branch(
+            self,
+            frame,
+            controllers,
+            seed=seed,
+            task=task,
+            recorded=recorded,
+            sensing=sensing,
         )
 
     def to_html(self) -> str:

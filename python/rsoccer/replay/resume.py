@@ -10,6 +10,7 @@ from rsoccer import registry
 from rsoccer._core import Sensing, build_info
 from rsoccer.controllers import Controller, Controllers
 from rsoccer.matches import Matches
+from rsoccer.policies import is_module_text
 from rsoccer.policies.base import Policy
 from rsoccer.randomization import Ranges
 from rsoccer.replay.container import ReplayError
@@ -17,10 +18,10 @@ from rsoccer.replay.recorded import Recorded
 from rsoccer.sources import SensingSource, SimulatorSource, closed_on_error
 from rsoccer.task import LEARN, Learn, Task
 
-# A task's own checks of its options may meet values of any type.
-_REFUSALS: Final = (
+REFUSALS: Final = (
     *(ArithmeticError, AttributeError, ImportError, LookupError, OSError, TypeError, ValueError),
 )
+"""Errors of what a file names: a task's own checks of its options may meet values of any type."""
 LEARNER: Final = "LEARN"
 """Name of a learner among the controllers of a replay."""
 
@@ -56,23 +57,16 @@ def resume(
     if frame not in replay.snapshots:
         held = sorted(replay.snapshots) or "none"
         raise ReplayError(f"frame: expected one with a snapshot ({held}), got {frame}")
-    physics = int(build_info()["physics"])
-    if replay.physics != physics:
-        raise ReplayError(
-            f"physics: expected version {physics}, got {replay.physics} of package "
-            f"{replay.package}: the match would go on otherwise"
-        )
+    _check_physics(replay)
     try:
-        task = _task(replay) if task is None else task
-        if task.config != replay.config:
-            raise ReplayError(f"task: expected {replay.task} with the replay's config, got another")
+        task, sensing = made_again(replay, task, sensing)
         given = _named(replay.controllers) if controllers is None else controllers
         matches = Matches(
             task,
             controllers=given,
             autoreset="disabled",
             simulator=simulator,
-            sensing=_sensing(replay) if sensing is None else sensing,
+            sensing=sensing,
             randomization=replay.randomization if randomization is None else randomization,
             history=replay.history,
         )
@@ -80,16 +74,48 @@ def resume(
             matches.load_state_dict(replay.snapshots[frame])
     except ReplayError:
         raise
-    except _REFUSALS as error:
+    except REFUSALS as error:
         raise ReplayError(f"resume: {error}") from error
     return matches
+
+
+def made_again(
+    replay: Recorded, task: Task | None, sensing: SensingSource | None
+) -> tuple[Task, SensingSource | None]:
+    """Return the task and the senses of a recording.
+
+    Args:
+        replay: the replay.
+        task: the task; None to make it from the replay.
+        sensing: what robots know of the true state; None for that of the replay.
+
+    Raises:
+        ReplayError: a task or senses that do not fit or have to be given.
+    """
+    task = _task(replay) if task is None else task
+    if task.config != replay.config:
+        raise ReplayError(f"task: expected {replay.task} with the replay's config, got another")
+    return task, _sensing(replay) if sensing is None else sensing
+
+
+def _check_physics(replay: Recorded) -> None:
+    physics = int(build_info()["physics"])
+    if replay.physics != physics:
+        raise ReplayError(
+            f"physics: expected version {physics}, got {replay.physics} of package "
+            f"{replay.package}: the match would go on otherwise"
+        )
 
 
 def _task(replay: Recorded) -> Task:
     """The task of a replay, made from its name and options."""
     if replay.options is None:
         raise ReplayError(f"task: expected {replay.task} as an argument: its options are not kept")
-    return registry.make_task(replay.task, **replay.options)
+    task = registry.make_task(replay.task, **replay.options)
+    defaults = task.default_controllers().values()
+    if code := [name for name in defaults if isinstance(name, str) and is_module_text(name)]:
+        raise ReplayError(f"task: expected {replay.task} as an argument: its policies are {code}")
+    return task
 
 
 def _sensing(replay: Recorded) -> Sensing | None:
@@ -107,6 +133,9 @@ def _named(controllers: Mapping[str, str | None]) -> dict[str, Controller]:
     unknown = [robot for robot, name in controllers.items() if name is None]
     if unknown:
         raise ReplayError(f"controllers: expected policies for {unknown}: they have no name")
+    code = {robot: name for robot, name in controllers.items() if name and is_module_text(name)}
+    if code:  # a file must not decide which module is imported
+        raise ReplayError(f"controllers: expected policies for {list(code)} as arguments: {code}")
     return {robot: LEARN if name == LEARNER else str(name) for robot, name in controllers.items()}
 
 

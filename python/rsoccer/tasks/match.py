@@ -60,7 +60,7 @@ class Match(Soccer):
                   own goal, for each team's robot nearest to the ball
     approach      progress toward the ball, for robots that may touch it: of each     m
                   robot in VSSS, of the nearest one of its team in SSL
-    energy        negative mean magnitude of the action                               steps
+    energy        negative mean magnitude of the action; 0 of an absent robot         steps
     fouls         -1 for each foul of the robot's team                                fouls
     cards         -1 for each card of the robot's team                                cards
     ============  ==================================================================  ========
@@ -191,7 +191,7 @@ class Match(Soccer):
             "goal": rewards.goal(play),
             "ball_to_goal": rewards.ball_to_goal(play, field) * nearest,
             "approach": self.approach(play, nearest) * may_touch,
-            "energy": rewards.energy(play),
+            "energy": rewards.energy(play) * (play.frame.robots.absent[:, play.observers] == 0.0),
             "fouls": -rewards.events_of_team(play, OFFENSES),
             "cards": -rewards.events_of_team(play, (EventKind.MULTIPLE_FOULS,)),
         }

@@ -36,7 +36,7 @@ PARTS: Final = ("rollout", "network", "ppo", "opponents", "run")
 """Fields of `Args` that hold the settings of a part."""
 
 CHANGEABLE_ON_RESUME: Final = (
-    *("imports", "out", "device", "resume", "overwrite", "samples"),
+    *("imports", "out", "device", "resume", "overwrite", "samples", "threads"),
     *(f"run.{setting.name}" for setting in dataclasses.fields(RunSettings)),
 )
 """Settings that may change when a run resumes. Two of them affect the updates: the linear schedule
@@ -78,9 +78,9 @@ class Args:
     seed: Natural = 0
     """random seed; equal settings give equal runs on a machine"""
     threads: Count = 2
-    """threads of the simulator"""
+    """threads of the simulator, of acting and of learning; they change no result"""
     torch_threads: Count = 1
-    """threads of torch; more help wide networks only"""
+    """threads of torch in each of them; more help wide networks on many cores only"""
     device: Device = "cpu"
     """device of the updates; auto is a GPU if there is one"""
     resume: bool = False

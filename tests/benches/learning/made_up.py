@@ -6,11 +6,12 @@ from typing import Any
 import numpy as np
 
 from benches.learning import conditions
-from benches.learning import opponents as evaluated_opponents
 from benches.learning.experiments import Experiment, Run, Study
+from benches.learning.opponents import OFFICIAL, SCENARIOS
 from benches.learning.run_files import Folders, save
 from benches.learning.run_files import needs as run_needs
 from rsoccer._core import build_info
+from rsoccer.benchmark import protocol
 from rsoccer.registry import make_task
 
 MODES = {"ppo": ("sample", "mean"), "ddpg": ("mean",), "sac": ("sample", "mean")}
@@ -78,9 +79,9 @@ def evaluations(experiment: Experiment, score: float) -> list[dict[str, Any]]:
 
 def opponents_of(experiment: Experiment) -> list[str | None]:
     """Return the opponents of the rows of an experiment."""
-    opponents = experiment.opponents or evaluated_opponents.opponents_of(experiment.task)
-    has_scenarios = experiment.task in evaluated_opponents.SCENARIOS
-    return [*opponents, *([evaluated_opponents.OFFICIAL] if has_scenarios else [])]
+    opponents = experiment.opponents or protocol.opponents_of(experiment.task)
+    has_scenarios = experiment.task in SCENARIOS
+    return [*opponents, *([OFFICIAL] if has_scenarios else [])]
 
 
 def row(experiment: Experiment, opponent: str, mode: str, score: float) -> dict[str, Any]:

@@ -6,11 +6,13 @@ import numpy as np
 import pytest
 
 import rsoccer
-from benches.learning import conditions, robust, senses
+from benches.learning import conditions, robust
 from benches.learning.experiments import CLONES, Experiment, Protocol, Run
 from benches.learning.run_files import Folders
 from benches.learning.running.evaluation import evaluate_run
 from benches.learning.running.learned import Learned
+from rsoccer.benchmark.conditions import CONDITIONS
+from rsoccer.benchmark.protocol import MATCHES
 from rsoccer.train import Args
 
 TASK = "SSLGoToBall-v0"
@@ -21,9 +23,9 @@ def shipped(**changes: Any) -> Experiment:  # noqa: ANN401  (any field)
     return Experiment("robust", "x", TASK, CLONES, **{**settings, **changes})
 
 
-@pytest.mark.parametrize("name", senses.CONDITIONS)
+@pytest.mark.parametrize("name", CONDITIONS)
 def test_matches_can_be_played_under_each_condition(name: str) -> None:
-    condition = senses.CONDITIONS[name]
+    condition = CONDITIONS[name]
     for task in ("VSS-v0", TASK):
         matches = rsoccer.Matches(
             task, 2, sensing=condition.sensing({}), randomization=condition.randomization(task)
@@ -35,14 +37,14 @@ def test_matches_can_be_played_under_each_condition(name: str) -> None:
 
 
 def test_masses_and_frictions_vary_around_those_of_the_task() -> None:
-    ranges = senses.CONDITIONS["varied-10"].randomization(TASK)
+    ranges = CONDITIONS["varied-10"].randomization(TASK)
     ball = rsoccer.make_task(TASK).config.ball
     assert ranges["ball.mass"] == pytest.approx((0.9 * ball.mass, 1.1 * ball.mass))
     assert ranges["robot.mass"] == pytest.approx((0.9, 1.1))
 
 
 def test_policies_can_need_numbers_in_all_conditions() -> None:
-    found = senses.CONDITIONS["rc2021"].sensing({"command_delay": 0.2})
+    found = CONDITIONS["rc2021"].sensing({"command_delay": 0.2})
     assert found == rsoccer.Sensing("rc2021", command_delay=0.2)
 
 
@@ -64,7 +66,7 @@ def test_a_policy_of_the_package_has_a_digest() -> None:
     assert len(settings["digest"]) == 12
     assert "conditions" not in settings
     named = conditions.settings(Run(shipped(conditions=("truth",)), 0))
-    assert (named["conditions"], named["matches"]) == (["truth"], senses.MATCHES)
+    assert (named["conditions"], named["matches"]) == (["truth"], MATCHES)
 
 
 def test_rows_name_their_condition(monkeypatch: pytest.MonkeyPatch) -> None:

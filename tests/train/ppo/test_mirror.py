@@ -43,7 +43,7 @@ def test_a_batch_holds_each_sample_and_its_reflection(
     trainer.update(trainer.collect_rollout(lambda: None), lambda: None)
     batch = trainer.collect_rollout(lambda: None)
     assert trainer.samples == 2 * len(batch), "reflected samples were counted"
-    both = with_reflections(batch, trainer.task, trainer.stack, trainer.model)
+    both = with_reflections(batch, trainer.task, trainer.stack, trainer.evaluator)
     size = len(batch)
     assert len(both) == 2 * size
     for name, part in batch.parts().items():
@@ -67,7 +67,7 @@ def test_reflected_actions_that_the_policy_would_hardly_draw_are_left_out(tmp_pa
     """Formerly training diverged: the density of such an action changes by orders of magnitude."""
     trainer = Trainer(tiny(tmp_path, initial_action=(0.9, -0.9), **SYMMETRIC))
     batch = trainer.collect_rollout(lambda: None)
-    both = with_reflections(batch, trainer.task, trainer.stack, trainer.model)
+    both = with_reflections(batch, trainer.task, trainer.stack, trainer.evaluator)
     assert len(batch) < len(both) < 1.2 * len(batch)
     reflected = both.log_probs[len(batch) :]
     assert reflected.min() > batch.log_probs.min() + np.log(0.5)
@@ -98,7 +98,7 @@ def test_learning_makes_the_values_nearly_symmetric(
     monkeypatch.setattr(update, "TARGET_KL", 1e3)
     trainer = Trainer(tiny(tmp_path, worlds=32, n_epochs=80, **SYMMETRIC))
     batch = trainer.collect_rollout(lambda: None)
-    both = with_reflections(batch, trainer.task, trainer.stack, trainer.model)
+    both = with_reflections(batch, trainer.task, trainer.stack, trainer.evaluator)
     deviations = []
     for _ in range(2):
         with torch.no_grad():
@@ -112,7 +112,7 @@ def test_learning_makes_the_values_nearly_symmetric(
 def test_masked_numbers_stay_masked_in_reflections(tmp_path: Path) -> None:
     trainer = Trainer(tiny(tmp_path, masked_observations=("action:0",), **SYMMETRIC))
     batch = trainer.collect_rollout(lambda: None)
-    both = with_reflections(batch, trainer.task, trainer.stack, trainer.model)
+    both = with_reflections(batch, trainer.task, trainer.stack, trainer.evaluator)
     first = trainer.task.layout.blocks["action"].columns.start
     assert not both.observations[:, first].any()
     assert batch.observations[:, first + 1].any()
@@ -148,6 +148,6 @@ def test_ssl_tasks_are_reflected_too(tmp_path: Path) -> None:
     args = one_update(task.name, tmp_path).to_json()
     trainer = Trainer(Args.from_json({**args, **by_name(SYMMETRIC)}))
     batch = trainer.collect_rollout(lambda: None)
-    both = with_reflections(batch, trainer.task, trainer.stack, trainer.model)
+    both = with_reflections(batch, trainer.task, trainer.stack, trainer.evaluator)
     signs = torch.tensor([1.0, -1.0, -1.0, 1.0, 1.0])
     assert torch.equal(both.actions[len(batch) :], batch.actions * signs)

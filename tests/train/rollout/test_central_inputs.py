@@ -124,7 +124,7 @@ def test_reflected_samples_have_reflected_states(tmp_path: Path) -> None:
     trainer = Trainer(tiny(tmp_path, mirror_augmentation=True, **CENTRAL))
     trainer.collect_rollout(lambda: None)
     batch = trainer.collect_rollout(lambda: None)
-    both = with_reflections(batch, trainer.task, trainer.stack, trainer.model)
+    both = with_reflections(batch, trainer.task, trainer.stack, trainer.evaluator)
     reflected, size = both.critic_inputs[len(batch) :], trainer.collector.matches.state_size
     assert torch.equal(reflected[:, size:], both.observations[len(batch) :])
     kept, negated = [

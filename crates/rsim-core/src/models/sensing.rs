@@ -57,6 +57,9 @@ numbers! {
         camera_overlap: NotNegative, "m";
         /// Error of all positions of a camera, in each direction.
         camera_offset_error: NotNegative, "m";
+        /// 1 for cameras of each team's own, 0 for the same that both teams see by.
+        #[serde(default)]
+        own_cameras: Fraction, "1";
         /// 1 to filter detections, 0 to take each with its true velocity.
         tracker: Fraction, "1";
         /// Time from a robot's own measurement to its arrival.

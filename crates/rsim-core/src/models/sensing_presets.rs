@@ -27,6 +27,7 @@ impl Sensing {
         cameras_across: 0.0,
         camera_overlap: 0.0,
         camera_offset_error: 0.0,
+        own_cameras: 0.0,
         tracker: 0.0,
         feedback_delay: 0.0,
         feedback_loss: 0.0,

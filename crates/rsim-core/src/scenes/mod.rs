@@ -2,6 +2,7 @@
 
 mod configs;
 mod driver;
+pub mod golden;
 mod measures;
 mod setup;
 

@@ -14,23 +14,28 @@ mod row;
 mod track;
 mod tracker;
 mod visibility;
+mod vision;
+pub(crate) mod vision_tracker;
 
 use serde::{Deserialize, Serialize};
 
 use crate::ball::mouth::Kicker;
 use crate::body_parameters::BodyParameters;
-use crate::forecast::MAX_FORECAST;
 use crate::forecast::commands::CommandLog;
+use crate::forecast::{Knowledge, MAX_FORECAST};
 use crate::models::config::SimConfig;
 use crate::models::sensing::Sensing;
 use crate::senses::actuators::Actuators;
-use crate::senses::cameras::Cameras;
-use crate::senses::detections::{CameraFrame, Detections};
+use crate::senses::detections::CameraFrame;
 use crate::senses::link::Link;
 use crate::senses::random::{Draws, Purpose};
 use crate::senses::reports::Reports;
 use crate::senses::tracker::Tracker;
+use crate::senses::vision::Vision;
 use crate::state::State;
+
+/// Differs the keys of the teams' own cameras.
+const SECOND_TEAM: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// Senses and commands of a match.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -44,10 +49,8 @@ pub(crate) struct Senses {
     timeout: Option<u64>,
     /// Number of looks at a state that was placed.
     looks: u64,
-    cameras: Cameras,
-    /// Frames that arrived in the last control step. The match does not depend on them.
-    arrived: Vec<Detections>,
-    tracker: Tracker,
+    /// What watches the field: for both teams, or for each of them.
+    visions: Vec<Vision>,
     reports: Reports,
     link: Link,
     actuators: Actuators,
@@ -68,11 +71,14 @@ impl Senses {
     pub(crate) fn new(sensing: Sensing, key: u64, watched: Watched<'_>) -> Self {
         let (robots, columns) = (watched.config.n_robots(), watched.config.command_columns());
         let mut draws = Draws::of(key, Purpose::Episode, 0);
-        let cameras = Cameras::new(watched.config, &sensing, &mut draws);
+        let mut visions = vec![Vision::new(watched.config, &sensing, key, &mut draws)];
+        if sensing.own_cameras >= 0.5 {
+            let key = key ^ SECOND_TEAM;
+            let mut draws = Draws::of(key, Purpose::Episode, 0);
+            visions.push(Vision::new(watched.config, &sensing, key, &mut draws));
+        }
         let mut senses = Self {
-            tracker: Tracker::new(robots, &sensing, cameras.period()),
-            cameras,
-            arrived: Vec::new(),
+            visions,
             reports: Reports::new(robots, &sensing, &mut draws),
             link: Link::new(robots, columns),
             actuators: Actuators::new(watched.parameters, columns, &sensing, &mut draws),
@@ -89,14 +95,13 @@ impl Senses {
 
     /// Looks at bodies that were placed, as if they had been watched for some time.
     pub(crate) fn look(&mut self, watched: Watched<'_>) {
-        let Watched { parameters, state, .. } = watched;
-        let mut draws = Draws::of(self.key, Purpose::Look, self.looks);
-        self.looks += 1;
         let now = self.now(watched.config);
-        self.cameras.forget();
-        let frame = self.cameras.look(now, &self.sensing, &mut draws, state, parameters);
-        self.tracker.begin(&frame);
-        self.reports.begin(state, parameters);
+        for vision in &mut self.visions {
+            let mut draws = Draws::of(vision.key, Purpose::Look, self.looks);
+            vision.look(now, &self.sensing, &mut draws, watched);
+        }
+        self.looks += 1;
+        self.reports.begin(watched.state, watched.parameters);
     }
 
     /// Sends the commands of a control step.
@@ -104,7 +109,9 @@ impl Senses {
         if self.sensing.forecast >= 0.5 {
             // A team knows when it sent its commands and how long they take in the mean, not more.
             let acts = self.now(config) + f64::from(self.expected(config).command_delay);
-            self.sent.forget_before(self.seen_at().max(acts - MAX_FORECAST));
+            let seen = self.visions.iter().map(|vision| vision.tracker.time());
+            let oldest = seen.fold(f64::INFINITY, f64::min);
+            self.sent.forget_before(oldest.max(acts - MAX_FORECAST));
             self.sent.add(acts, commands);
         }
         self.link.send(self.ticks, config.tick, (&self.sensing, self.key), commands);
@@ -142,8 +149,9 @@ impl Senses {
     pub(crate) fn watch(&mut self, watched: Watched<'_>) {
         self.ticks += 1;
         let now = self.now(watched.config);
-        let random = (&self.sensing, self.key);
-        self.cameras.expose(now, random, watched.state, watched.parameters);
+        for vision in &mut self.visions {
+            vision.expose(now, &self.sensing, watched);
+        }
     }
 
     /// Ends a control step: robots report, and what has arrived is taken in.
@@ -152,28 +160,30 @@ impl Senses {
         let now = self.now(config);
         self.reports.send(now, (&self.sensing, self.key), state, parameters);
         self.reports.receive(now);
-        for frame in self.arrived.drain(..) {
-            self.cameras.recycle(frame);
-        }
-        while let Some(frame) = self.cameras.arrived(now) {
-            self.tracker.take(&self.sensing, &frame, parameters.ball.radius);
-            self.arrived.push(frame);
+        for vision in &mut self.visions {
+            vision.receive(now, &self.sensing, parameters);
         }
     }
 
-    /// The frames of the cameras that arrived in the last control step, in the order of their arrival.
+    /// The frames that arrived in the last control step, in the order of their arrival: of all cameras, or of
+    /// those of the first team.
     pub(crate) fn camera_frames(&self) -> Vec<CameraFrame> {
-        self.arrived.iter().map(Detections::to_camera_frame).collect()
+        self.visions[0].camera_frames()
     }
 
-    /// Writes the row of what robots know.
-    pub(crate) fn write_row(&self, state: &State, out: &mut [f32]) {
-        row::write(&self.tracker, self.reports.cut, &self.reports.motions, state, out);
+    /// Writes the row of what the robots of a team know.
+    pub(crate) fn write_row(&self, knowledge: Knowledge, state: &State, out: &mut [f32]) {
+        row::write(self.tracker(knowledge), self.reports.cut, &self.reports.motions, state, out);
     }
 
-    /// Writes the row of what robots know with velocities by cameras, which are of the same time as positions.
-    pub(crate) fn write_row_by_cameras(&self, state: &State, out: &mut [f32]) {
-        row::write(&self.tracker, self.reports.cut, &[], state, out);
+    /// Writes the row of what a team knows with velocities by cameras, which are of the same time as positions.
+    pub(crate) fn write_row_by_cameras(
+        &self,
+        knowledge: Knowledge,
+        state: &State,
+        out: &mut [f32],
+    ) {
+        row::write(self.tracker(knowledge), self.reports.cut, &[], state, out);
     }
 
     /// Numbers of the senses.
@@ -192,9 +202,15 @@ impl Senses {
         &self.sent
     }
 
-    /// Time of the last frame that has arrived, s.
-    pub(crate) fn seen_at(&self) -> f64 {
-        self.tracker.time()
+    /// Time of the last frame that has arrived at a team, s.
+    pub(crate) fn seen_at(&self, knowledge: Knowledge) -> f64 {
+        self.tracker(knowledge).time()
+    }
+
+    /// The tracker of a team: the first one's for the knowledge of all.
+    fn tracker(&self, knowledge: Knowledge) -> &Tracker {
+        let index = usize::from(knowledge == Knowledge::Yellow).min(self.visions.len() - 1);
+        &self.visions[index].tracker
     }
 
     /// Time since the senses began, s.

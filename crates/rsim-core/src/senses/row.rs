@@ -18,6 +18,21 @@ pub(super) fn write(
     state: &State,
     out: &mut [f32],
 ) {
+    let absent = |index| {
+        let Motion { position, heading, .. } = state.bodies.motion(robot(index));
+        state.is_absent(index).then_some((position, heading))
+    };
+    write_known(tracker, cut, motions, absent, out);
+}
+
+/// The same with position and heading of each robot that is `absent`, by its index.
+pub(super) fn write_known(
+    tracker: &Tracker,
+    cut: u64,
+    motions: &[OwnMotion],
+    absent: impl Fn(usize) -> Option<(Vector, Vector)>,
+    out: &mut [f32],
+) {
     let (ball, robots) = out.split_at_mut(BALL_COLUMNS.len());
     let known = &tracker.ball;
     let (position, velocity) = (known.track.position, known.track.velocity);
@@ -28,8 +43,7 @@ pub(super) fn write(
     ball[..motion.len()].copy_from_slice(&motion);
     ball[motion.len()] = no_touch;
     for (index, columns) in robots.chunks_exact_mut(ROBOT_COLUMNS.len()).enumerate() {
-        if state.is_absent(index) {
-            let Motion { position, heading, .. } = state.bodies.motion(robot(index));
+        if let Some((position, heading)) = absent(index) {
             columns.fill(0.0);
             columns[..4].copy_from_slice(&[position.x, position.y, heading.x, heading.y]);
             columns[ABSENT_COLUMN] = 1.0;

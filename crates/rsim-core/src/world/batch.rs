@@ -167,7 +167,7 @@ impl Batch {
     pub fn sense_without_forecast(&self, out: &mut [f32], active: Option<&[bool]>) {
         self.threads.write_rows(out, self.config().row_size(), SENSED_ALONE, |world, row| {
             if active.is_none_or(|active| active[world]) {
-                self.worlds[world].write_row_as_seen(row);
+                self.worlds[world].write_row_as_seen(Knowledge::Blue, row);
             }
         });
     }

@@ -41,31 +41,31 @@ impl World {
         self.senses.as_ref().is_some_and(|senses| senses.sensing().forecast >= 0.5)
     }
 
-    /// Writes the row of what a team knows: without a forecast the same for both, see
-    /// [`World::write_sensed_row`]. With one it is the state in which the next commands will act, as far as
-    /// the models, the configuration's delay and the commands that are known tell.
+    /// Writes the row of what a team knows: without a forecast and without cameras of each team's own the same
+    /// for both, see [`World::write_sensed_row`]. With a forecast it is the state in which the next commands
+    /// will act, as far as the models, the configuration's delay and the commands that are known tell.
     pub fn write_row_known_to(&self, knowledge: Knowledge, out: &mut [f32]) {
         let Some(senses) = self.senses.as_ref().filter(|senses| senses.sensing().forecast >= 0.5)
         else {
-            return self.write_row_as_seen(out);
+            return self.write_row_as_seen(knowledge, out);
         };
         let config = self.config();
         let expected = senses.expected(config);
         let mut seen = vec![0.0; out.len()];
-        senses.write_row_by_cameras(&self.state, &mut seen);
+        senses.write_row_by_cameras(knowledge, &self.state, &mut seen);
         let all = senses.sensing().forecast_others >= 0.5;
-        let knowledge = if all { Knowledge::All } else { knowledge };
+        let acting = if all { Knowledge::All } else { knowledge };
         let until = senses.now(config) + f64::from(expected.command_delay);
         let known = Known {
             row: &seen,
-            seen: senses.seen_at().max(until - MAX_FORECAST),
+            seen: senses.seen_at(knowledge).max(until - MAX_FORECAST),
             until,
             commands: senses.sent(),
-            robots: knowledge.robots(config),
+            robots: acting.robots(config),
             timeout: timeout(expected),
         };
         if !self.shared.run(&known, out) {
-            senses.write_row(&self.state, out);
+            senses.write_row(knowledge, &self.state, out);
         }
     }
 }

@@ -29,15 +29,16 @@ impl World {
         self.write_row_known_to(Knowledge::Blue, out);
     }
 
-    /// Writes the row of what cameras and robots have reported: the state row without senses.
-    pub(super) fn write_row_as_seen(&self, out: &mut [f32]) {
+    /// Writes the row of what a team's cameras and robots have reported: the state row without senses.
+    pub(super) fn write_row_as_seen(&self, knowledge: Knowledge, out: &mut [f32]) {
         match &self.senses {
             None => self.write_row(out),
-            Some(senses) => senses.write_row(&self.state, out),
+            Some(senses) => senses.write_row(knowledge, &self.state, out),
         }
     }
 
-    /// The frames of the cameras that arrived in the last control step; none without senses.
+    /// The frames of the cameras, of the first team's where each has its own, that arrived in the last control
+    /// step; none without senses.
     pub fn camera_frames(&self) -> Vec<CameraFrame> {
         self.senses.as_ref().map_or_else(Vec::new, |senses| senses.camera_frames())
     }

@@ -1,7 +1,7 @@
 //! Cameras, tracker and robots' own sensors.
 
 use rsim_core::scenes::{self, Driver, Scene};
-use rsim_core::{Sensing, SimConfig};
+use rsim_core::{Knowledge, Sensing, SimConfig};
 
 use super::{Played, assert_near, moments};
 
@@ -289,4 +289,39 @@ fn what_no_robot_senses_is_not_known() {
         }
         assert!(happened, "{name}");
     }
+}
+
+/// Position noise of what both teams know, by step and world.
+fn noises_of_teams(sensing: &Sensing) -> [Vec<f32>; 2] {
+    let scene = moving();
+    let (mut batch, mut rows) = super::begin(&scene, sensing.clone(), 50);
+    let size = scene.config.row_size();
+    let mut noises = [Vec::new(), Vec::new()];
+    for step in 0..20 {
+        let each = rows.chunks_exact(size);
+        let commands: Vec<f32> = each.flat_map(|row| scene.commands(row, step, 0)).collect();
+        batch.step(&commands, &mut rows, None).expect("finite");
+        for (knowledge, noises) in [Knowledge::Blue, Knowledge::Yellow].into_iter().zip(&mut noises)
+        {
+            let mut known = vec![0.0; rows.len()];
+            batch.sense_as(knowledge, &mut known, None);
+            let pairs = known.chunks_exact(size).zip(rows.chunks_exact(size));
+            noises.extend(pairs.map(|(known, truth)| known[0] - truth[0]));
+        }
+    }
+    noises
+}
+
+#[test]
+fn cameras_of_their_own_give_teams_errors_of_their_own() {
+    let shared = Sensing { ball_position_noise: 0.01, ..Sensing::OFF };
+    let own = Sensing { own_cameras: 1.0, ..shared.clone() };
+    let [blue, yellow] = noises_of_teams(&shared);
+    assert_eq!(blue, yellow);
+    let [first, second] = noises_of_teams(&own);
+    assert_eq!(first, blue, "the first team sees what both saw");
+    let (_, deviation) = moments(second.iter().copied());
+    assert_near(deviation, 0.01, 0.06);
+    let (_, together) = moments(first.iter().zip(&second).map(|(a, b)| a + b));
+    assert_near(together, 0.01 * std::f64::consts::SQRT_2, 0.06);
 }

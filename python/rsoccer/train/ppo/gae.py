@@ -5,7 +5,7 @@ from __future__ import annotations
 import torch
 from torch import Tensor
 
-from rsoccer.train.network.actor_critic import ActorCritic
+from rsoccer.train.network.evaluator import Evaluator
 from rsoccer.train.ppo.batch import Batch
 from rsoccer.train.ppo.settings import PpoSettings
 from rsoccer.train.rollout.samples import Rollout
@@ -44,20 +44,24 @@ def compute_gae(
 
 
 @torch.no_grad()
-def make_batch(rollout: Rollout, model: ActorCritic, settings: PpoSettings, gamma: float) -> Batch:
+def make_batch(
+    rollout: Rollout, evaluator: Evaluator, settings: PpoSettings, gamma: float
+) -> Batch:
     """Return the samples of a rollout, with their advantages and the targets of their values.
 
     Args:
         rollout: decisions of all learners.
-        model: the value network.
+        evaluator: evaluates the value network.
         settings: settings of PPO.
         gamma: discount factor per decision, 0 to 1.
     """
-    values = model.value(rollout.critic_inputs)
+    values = evaluator.value(rollout.critic_inputs)
+    next_values = values.roll(-1, 0)
+    next_values[rollout.needs_next] = evaluator.value(rollout.next_inputs)
     advantages = compute_gae(
         rollout.rewards,
         values,
-        model.value(rollout.next_critic_inputs),
+        next_values,
         rollout.terminated if settings.bootstrap_time_limits else rollout.ended,
         rollout.ended,
         gamma,

@@ -22,7 +22,7 @@ from rsoccer.global_state import StateEncoder
 from rsoccer.history import ObservationStack
 from rsoccer.reflection import Reflection
 from rsoccer.task import Task
-from rsoccer.train.network.actor_critic import ActorCritic
+from rsoccer.train.network.evaluator import Evaluator
 from rsoccer.train.ppo.batch import Batch
 
 MIN_DENSITY_RATIO: Final = 0.5
@@ -46,7 +46,7 @@ def check_symmetric(task: Task) -> None:
 
 @torch.no_grad()
 def with_reflections(
-    batch: Batch, task: Task, stack: ObservationStack, model: ActorCritic
+    batch: Batch, task: Task, stack: ObservationStack, evaluator: Evaluator
 ) -> Batch:
     """Return a batch of up to twice the size: the samples, then those that can be reflected.
 
@@ -57,24 +57,54 @@ def with_reflections(
             reflection does not change.
         task: the task, which is symmetric.
         stack: what the networks observe of it.
-        model: the networks before the update.
+        evaluator: evaluates the networks as they are before the update.
     """
-    symmetry, reflection = task.symmetry, stack.reflection(task)
-    assert symmetry is not None and reflection is not None, "a symmetric task"
-    observations = _reflect(batch.observations, reflection) * model.mask
+    symmetry, found = task.symmetry, stack.reflection(task)
+    assert symmetry is not None and found is not None, "a symmetric task"
+    reflection: Reflection = found
+    model = evaluator.model
+    observations, log_probs = torch.empty_like(batch.observations), torch.empty(len(batch))
     actions = _reflect(batch.actions, symmetry.action)
-    log_probs = model.log_prob(model.actor(observations), actions)
+
+    @torch.no_grad()
+    def reflect(part: slice, thread: int) -> None:
+        observations[part] = _reflect(batch.observations[part], reflection).mul_(model.mask)
+        mean = evaluator.actor(thread).outputs(observations[part])
+        log_probs[part] = model.log_prob(mean, actions[part])
+
+    evaluator.each_part(len(batch), reflect)
     reflected = Batch(observations, actions, log_probs, batch.advantages, batch.returns)
     if batch.central_inputs is not None:
         states = batch.central_inputs[:, : -stack.size]
-        reflection = StateEncoder(task.config).reflection
-        reflected.central_inputs = torch.cat([_reflect(states, reflection), observations], dim=-1)
+        mirrored = _reflect(states, StateEncoder(task.config).reflection)
+        reflected.central_inputs = torch.cat([mirrored, observations], dim=-1)
     likely = log_probs >= batch.log_probs + math.log(MIN_DENSITY_RATIO)
-    others = reflected.select(likely.nonzero().squeeze(-1)).parts()
-    return Batch(**{name: torch.cat([part, others[name]]) for name, part in batch.parts().items()})
+    return _joined(batch, reflected, likely.nonzero().squeeze(-1), evaluator)
+
+
+def _joined(first: Batch, second: Batch, rows: Tensor, evaluator: Evaluator) -> Batch:
+    """All samples of a batch, then some rows of another one."""
+    size = len(first)
+    others = second.parts()
+    joined = {
+        name: part.new_empty((size + len(rows), *part.shape[1:]))
+        for name, part in first.parts().items()
+    }
+
+    def copy_first(part: slice, _: int) -> None:
+        for name, values in first.parts().items():
+            joined[name][part] = values[part]
+
+    def copy_rows(part: slice, _: int) -> None:
+        for name, values in others.items():
+            torch.index_select(values, 0, rows[part], out=joined[name][size:][part])
+
+    evaluator.each_part(size, copy_first)
+    evaluator.each_part(len(rows), copy_rows)
+    return Batch(**joined)
 
 
 def _reflect(vectors: Tensor, reflection: Reflection) -> Tensor:
     """Reflected vectors (..., k)."""
-    order = torch.as_tensor(reflection.order, device=vectors.device)
-    return vectors[..., order] * torch.as_tensor(reflection.signs, device=vectors.device)
+    order = torch.as_tensor(reflection.order)
+    return vectors.index_select(-1, order).mul_(torch.as_tensor(reflection.signs))

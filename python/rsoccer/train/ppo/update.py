@@ -1,4 +1,4 @@
-"""Proximal policy optimization (PPO, Schulman et al. 2017): the clipped loss and the update."""
+"""Proximal policy optimization (PPO, Schulman et al. 2017): passes over a batch."""
 
 from __future__ import annotations
 
@@ -7,19 +7,17 @@ from collections.abc import Callable
 from typing import Final
 
 import torch
-from torch import Tensor, nn
+from torch import nn
 
 from rsoccer.train.network.actor_critic import ActorCritic
 from rsoccer.train.network.weight_sharing import WeightSharing
 from rsoccer.train.ppo.adam import Adam
 from rsoccer.train.ppo.batch import Batch
 from rsoccer.train.ppo.learning_rate import TARGET_KL
+from rsoccer.train.ppo.loss_gradient import LossGradient
 from rsoccer.train.ppo.settings import PpoSettings
+from rsoccer.train.workers import Workers
 
-CLIP_RANGE: Final = 0.2
-"""Largest change of an action's probability ratio that the loss rewards."""
-VALUE_COEF: Final = 0.5
-"""Weight of the value loss."""
 MAX_GRAD_NORM: Final = 0.5
 """Largest norm of a gradient; longer gradients are shortened to it."""
 
@@ -42,6 +40,7 @@ class PPO:
         generator: torch.Generator,
         device: torch.device,
         sharing: WeightSharing | None = None,
+        workers: Workers | None = None,
     ) -> None:
         """Create the copy and the optimizer.
 
@@ -51,6 +50,7 @@ class PPO:
             generator: draws the minibatches, on the CPU.
             device: device of the updates.
             sharing: groups of parameters that stay equal; None for none.
+            workers: threads that compute gradients on a CPU; None for the calling one alone.
         """
         self._settings, self._model, self._generator = settings, model, generator
         self._sharing, self.device = sharing, device
@@ -61,6 +61,9 @@ class PPO:
         vector = nn.utils.parameters_to_vector(self._learner.parameters()).detach()
         nn.utils.vector_to_parameters(vector, self._learner.parameters())
         self.optimizer = Adam(vector)
+        if workers is None or device.type != "cpu":  # a GPU computes a minibatch at once
+            workers = Workers(1)
+        self._loss_gradient = LossGradient(self._learner, workers)
 
     @torch.no_grad()
     def update(
@@ -110,13 +113,12 @@ class PPO:
         *,
         critic_only: bool,
     ) -> list[float]:
-        """One pass over the batch; the mean of the minibatches' statistics from `_gradients`."""
-        order = torch.randperm(len(batch), generator=self._generator)
+        """One pass over the batch; the mean of the minibatches' statistics from `LossGradient`."""
+        order = torch.randperm(len(batch), generator=self._generator).to(self.device)
         stats = []
-        for minibatch in batch.select(order.to(self.device)).chunk(self._settings.n_minibatches):
+        for rows in order.chunk(self._settings.n_minibatches):
             check_stop()
-            gradients, minibatch_stats = self._gradients(minibatch, critic_only=critic_only)
-            gradient = torch.cat([part.flatten() for part in gradients])
+            gradient, minibatch_stats = self._loss_gradient(batch, rows, critic_only=critic_only)
             if self._sharing is not None:
                 gradient = self._sharing.average(gradient)
             scale = MAX_GRAD_NORM / (gradient.norm() + 1e-6)
@@ -124,34 +126,3 @@ class PPO:
             stats.append(minibatch_stats)
         means: list[float] = torch.stack(stats).mean(0).tolist()
         return means
-
-    def _gradients(
-        self, minibatch: Batch, *, critic_only: bool = False
-    ) -> tuple[list[Tensor], Tensor]:
-        """Gradients of the loss by parameter, and (approx_kl, clip_fraction, value_loss), (3,).
-
-        With ratios r, advantages A, values V and returns R the loss is
-        -mean(min(r A, clip(r) A)) + VALUE_COEF mean((V - R)^2).
-        A test compares the gradients with those of autograd.
-        """
-        model = self._learner
-        advantages = minibatch.advantages
-        advantages = (advantages - advantages.mean()) / (advantages.std() + 1e-8)
-        actor = model.actor.activations(minibatch.observations)
-        offset = model.standardize(actor[-1], minibatch.actions)
-        log_ratio = model.log_density(offset) - minibatch.log_probs
-        ratio = log_ratio.exp()
-        clipped_ratio = ratio.clamp(1 - CLIP_RANGE, 1 + CLIP_RANGE)
-        gain = ratio * advantages
-        unclipped = gain <= clipped_ratio * advantages
-        by_log_prob = torch.where(unclipped, gain, 0.0).mul_(-1.0 / len(minibatch))[:, None]
-        by_mean = offset * by_log_prob * (-model.log_std).exp()
-        if critic_only:  # Adam leaves parameters as they are whose gradients were always 0
-            by_mean.zero_()
-        critic = model.critic.activations(minibatch.critic_inputs)
-        error = critic[-1] - minibatch.returns[:, None]
-        by_value = error * (2.0 * VALUE_COEF / len(minibatch))
-        gradients = model.actor.gradients(actor, by_mean) + model.critic.gradients(critic, by_value)
-        approx_kl = (ratio - 1 - log_ratio).mean()  # never negative, Schulman (2020)
-        clip_fraction = (clipped_ratio != ratio).float().mean()
-        return gradients, torch.stack([approx_kl, clip_fraction, error.square().mean()])

@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
-import dataclasses
+import functools
 from collections.abc import Callable
 
 import numpy as np
 import torch
 from torch import Tensor
 
-from rsoccer.arrays import Floats, Mask
+from rsoccer.arrays import Doubles, Floats, Mask
 from rsoccer.matches import Matches
 from rsoccer.reflection import Reflection
 from rsoccer.train.clock import Clock
-from rsoccer.train.network.actor_critic import OBSERVATION_CLIP, ActorCritic
+from rsoccer.train.network.actor_critic import ActorCritic
+from rsoccer.train.network.evaluator import Evaluator
 from rsoccer.train.opponents.policy_mix import PolicyMix
+from rsoccer.train.rollout.acting import Acting
 from rsoccer.train.rollout.central_inputs import CentralInputs
 from rsoccer.train.rollout.episode_stats import EpisodeStats, Row
-from rsoccer.train.rollout.running_mean_std import RunningMeanStd
+from rsoccer.train.rollout.running_mean_std import RunningMeanStd, moments
 from rsoccer.train.rollout.samples import Rollout
 from rsoccer.train.rollout.settings import RolloutSettings
 from rsoccer.train.rollout.transition import Transition, repeat_action
@@ -42,7 +44,7 @@ class RolloutCollector:
     def __init__(
         self,
         settings: RolloutSettings,
-        model: ActorCritic,
+        evaluator: Evaluator,
         generator: torch.Generator,
         clock: Clock,
         kinds: tuple[str, ...] = (),
@@ -54,7 +56,7 @@ class RolloutCollector:
 
         Args:
             settings: settings of the rollouts.
-            model: the policy that acts.
+            evaluator: evaluates the policy that acts.
             generator: draws actions and truncations.
             clock: measures the time of acting and of the matches.
             kinds: names of the kinds of opponents; without a mix all are of the first kind.
@@ -62,9 +64,11 @@ class RolloutCollector:
             reflection: reflection of an observation that the statistics do not change under; None
                 for none.
         """
-        self._settings, self._model, self._generator = settings, model, generator
+        self._settings, self._generator = settings, generator
+        self._evaluator, self._model = evaluator, evaluator.model
         self._clock, self.central = clock, central
-        self.obs_rms = RunningMeanStd(model.observation_size, reflection=reflection)
+        self.obs_rms = RunningMeanStd(self._model.observation_size, reflection=reflection)
+        self._acting = Acting(evaluator, self.obs_rms, generator)
         self.states: Floats | None = None
         self.return_rms = RunningMeanStd(1, min_std=1e-6)
         self.episode_stats = EpisodeStats(kinds)
@@ -92,35 +96,34 @@ class RolloutCollector:
         Returns:
             The decisions of all learners in all worlds.
         """
-        decisions: list[tuple[Tensor, ...]] = []
+        settings = self._settings
+        robots = self.discounted_returns.size
+        store = _Store(settings.horizon, robots, self._model, self.states)
         observations: list[Floats] = []
         states: list[Floats] = []
         self.reward_means = {}
-        for _ in range(self._settings.horizon):
+        for step in range(settings.horizon):
             check_stop()
             observations.append(self.observations)
             if self.states is not None:
                 states.append(self.states)
-            decisions.append(self._play_decision(gamma))
-        if self._settings.normalize_observations:
-            size = self._model.observation_size
-            self.obs_rms.update(np.concatenate(observations).reshape(-1, size))
+            self._play_decision(store, step, gamma)
+        if settings.normalize_observations:
+            self._add_observations(observations)
             if self.central is not None:
                 self.central.update(states)
-        played = Rollout(*(torch.stack(parts) for parts in zip(*decisions, strict=True)))
-        scale = float(self.return_rms.std[0])
-        return dataclasses.replace(played, rewards=played.rewards / scale)
+        return store.rollout(float(self.return_rms.std[0]))
 
-    @torch.no_grad()
-    def _play_decision(self, gamma: float) -> tuple[Tensor, ...]:
-        """One decision in every world: the fields of a `Rollout`, (worlds x agents, ...)."""
+    def _play_decision(self, store: _Store, step: int, gamma: float) -> None:
+        """One decision in every world."""
+        actions = store.actions[step]
         with self._clock.measure("acting"):
-            observations = self._normalize(self.observations)
-            mean = self._model.actor(observations)
-            noise = torch.randn(mean.shape, generator=self._generator)
-            actions = mean + noise * self._model.log_std.exp()
-            log_probs = self._model.log_prob(mean, actions)
-            inputs = self._critic_inputs(observations, self.states)
+            flat = self.observations.reshape(len(actions), -1)
+            normalized = store.observations[step]
+            self._acting.decide(flat, normalized, actions, store.log_probs[step])
+            if self.central is not None and self.states is not None:
+                assert store.central_inputs is not None, "made for the states"
+                store.central_inputs[step] = self.central.join(self.states, normalized)
         with self._clock.measure("matches"):
             shape = (*self.discounted_returns.shape, actions.shape[-1])
             transition = repeat_action(
@@ -131,22 +134,40 @@ class RolloutCollector:
             )
             self._record(transition, gamma)
             ended = transition.ended | self._draw_truncations()
+            last = step == self._settings.horizon - 1
+            self._record_next(store, transition, np.ones_like(ended) if last else ended)
             self.discounted_returns[ended] = 0.0
             self.observations = transition.observations
             if ended.any():
                 self.observations = self.matches.reset(mask=ended)
             self._update_states()
-        agents = self.discounted_returns.shape[1]
-        return (
-            observations,
-            actions,
-            log_probs,
-            torch.tensor(transition.rewards.reshape(-1)),
-            self._critic_inputs(self._normalize(transition.observations), transition.states),
-            torch.tensor(np.repeat(transition.terminated, agents)),
-            torch.tensor(np.repeat(ended, agents)),
-            *([] if self.central is None else [inputs]),
-        )
+        agents = shape[1]
+        store.rewards[step] = torch.from_numpy(transition.rewards.reshape(-1))
+        store.terminated[step] = torch.from_numpy(np.repeat(transition.terminated, agents))
+        store.ended[step] = torch.from_numpy(np.repeat(ended, agents))
+
+    def _record_next(self, store: _Store, transition: Transition, needed: Mask) -> None:
+        """Keep the next inputs of the value network in the worlds that need them."""
+        if not needed.any():
+            return
+        observations = transition.observations[needed]
+        inputs = self._acting.normalized(observations.reshape(-1, observations.shape[-1]))
+        if self.central is not None and transition.states is not None:
+            inputs = self.central.join(transition.states[needed], inputs)
+        store.next_inputs.append(inputs)
+
+    def _add_observations(self, observations: list[Floats]) -> None:
+        """Add the observations of a rollout to their statistics."""
+        size, found = self._model.observation_size, dict[int, tuple[Doubles, Doubles]]()
+
+        def measure(step: int, _: int) -> None:
+            # In one order of memory, as sums depend on it: a restored array has another one.
+            found[step] = moments(np.ascontiguousarray(observations[step]).reshape(-1, size))
+
+        jobs = [functools.partial(measure, step) for step in range(len(observations))]
+        self._evaluator.workers.run(jobs)
+        for step in range(len(observations)):
+            self.obs_rms.add(self.discounted_returns.size, *found[step])
 
     def _draw_truncations(self) -> Mask:
         """Mask (n,) of random truncations, which are treated like time limits."""
@@ -177,15 +198,39 @@ class RolloutCollector:
         if self.central is not None:
             self.states = self.matches.states()
 
-    def _critic_inputs(self, observations: Tensor, states: Floats | None) -> Tensor:
-        """Inputs of the value network (worlds x agents, s + o) of normalized observations."""
-        if self.central is None or states is None:
-            return observations
-        return self.central.join(states, observations)
 
-    def _normalize(self, observations: Floats) -> Tensor:
-        """Normalized observations (worlds x agents, o) of observations (n, agents, o)."""
-        mean, std = self.obs_rms.as_float32()
-        flat = observations.reshape(-1, observations.shape[-1])
-        clipped = np.clip((flat - mean) / std, -OBSERVATION_CLIP, OBSERVATION_CLIP)
-        return torch.tensor(clipped) * self._model.mask
+class _Store:
+    """Memory for the decisions of a rollout."""
+
+    def __init__(
+        self,
+        horizon: int,
+        robots: int,
+        model: ActorCritic,
+        states: Floats | None,
+    ) -> None:
+        """Reserve memory for a horizon and some robots."""
+        shape, (action_size,) = (horizon, robots), model.log_std.shape
+        self.observations = torch.empty((*shape, model.observation_size))
+        self.actions = torch.empty((*shape, action_size))
+        self.log_probs, self.rewards = torch.empty(shape), torch.empty(shape)
+        self.terminated = torch.empty(shape, dtype=torch.bool)
+        self.ended = torch.empty(shape, dtype=torch.bool)
+        self.central_inputs: Tensor | None = None
+        if states is not None:
+            size = states.shape[1] + model.observation_size
+            self.central_inputs = torch.empty((*shape, size))
+        self.next_inputs: list[Tensor] = []
+
+    def rollout(self, scale: float) -> Rollout:
+        """The decisions, with rewards divided by a scale."""
+        return Rollout(
+            self.observations,
+            self.actions,
+            self.log_probs,
+            self.rewards.div_(scale),
+            self.terminated,
+            self.ended,
+            torch.cat(self.next_inputs),
+            self.central_inputs,
+        )

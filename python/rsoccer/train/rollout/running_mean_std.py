@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rsoccer.arrays import Floats
+from rsoccer.arrays import Doubles, Floats
 from rsoccer.reflection import Reflection
 
 
@@ -44,10 +44,17 @@ class RunningMeanStd:
         Args:
             batch: (k, size) rows; k may be 0.
         """
-        count = len(batch)
-        if count == 0:
-            return
-        mean, variance = batch.mean(0, dtype=np.float64), batch.var(0, dtype=np.float64)
+        if len(batch):
+            self.add(len(batch), *moments(batch))
+
+    def add(self, count: int, mean: Doubles, variance: Doubles) -> None:
+        """Add a batch of which the moments are known.
+
+        Args:
+            count: number of its rows, at least 1.
+            mean: (size,) mean of its rows.
+            variance: (size,) variance of its rows.
+        """
         total = self.count + count
         delta = mean - self.mean
         squares = self.variance * self.count + variance * count
@@ -95,3 +102,12 @@ class RunningMeanStd:
         """
         self.count = int(arrays["count"][0])
         self.mean, self.variance = arrays["mean"].copy(), arrays["variance"].copy()
+
+
+def moments(batch: NDArray[Any]) -> tuple[Doubles, Doubles]:
+    """Return mean and variance of the columns of a batch, (size,) each, in double precision.
+
+    Args:
+        batch: (k, size) rows, at least one.
+    """
+    return batch.mean(0, dtype=np.float64), batch.var(0, dtype=np.float64)

@@ -19,16 +19,25 @@ class Rollout:
     """(horizon, robots) log densities of the actions under the policy that drew them."""
     rewards: Tensor
     """(horizon, robots) scaled rewards."""
-    next_critic_inputs: Tensor
-    """(horizon, robots, s + o) inputs of the value network after the decisions; those at the end of
-    the episode where it ended."""
     terminated: Tensor
     """(horizon, robots) bool, the task ended the episode."""
     ended: Tensor
     """(horizon, robots) bool, the episode terminated or was truncated."""
+    next_inputs: Tensor
+    """(k, s + o) inputs of the value network after the decisions of `needs_next`."""
     central_inputs: Tensor | None = None
     """(horizon, robots, s + o) inputs of a centralized critic before the decisions; None if the
     critic reads the observations."""
+
+    @property
+    def needs_next(self) -> Tensor:
+        """(horizon, robots) bool, decisions after which no other one has the next inputs.
+
+        They are those that end an episode, and the last ones of the rollout.
+        """
+        mask = self.ended.clone()
+        mask[-1] = True
+        return mask
 
     @property
     def critic_inputs(self) -> Tensor:

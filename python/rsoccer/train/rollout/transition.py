@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.matches import Matches
 
@@ -64,7 +66,9 @@ def repeat_action(
         result.rewards += outcome.rewards * playing[:, None]
         for name, term in outcome.terms.items():
             result.terms[name] += float((term * playing[:, None]).mean())
-        result.observations[playing] = outcome.observations[playing]
+        waiting = np.flatnonzero(result.ended)  # few, so that little is copied
+        outcome.observations[waiting] = result.observations[waiting]
+        result.observations = outcome.observations
         if result.states is not None:
             result.states[playing] = matches.states()[playing]
         result.terminated |= outcome.terminated & playing

@@ -20,6 +20,7 @@ from rsoccer.train.args import Args
 from rsoccer.train.clock import Clock
 from rsoccer.train.network import initial_policy
 from rsoccer.train.network.build import build_networks
+from rsoccer.train.network.evaluator import Evaluator
 from rsoccer.train.opponents.curriculum import Curriculum
 from rsoccer.train.ppo.batch import Batch
 from rsoccer.train.ppo.device import find_device
@@ -31,6 +32,7 @@ from rsoccer.train.ppo.update import PPO
 from rsoccer.train.rollout.central_inputs import CentralInputs
 from rsoccer.train.rollout.collector import RolloutCollector
 from rsoccer.train.rollout.episode_stats import Row
+from rsoccer.train.workers import Workers
 
 
 class Trainer:
@@ -46,6 +48,7 @@ class Trainer:
         pool: opponents of the learners if both teams learn, else None.
         is_solo: True while one robot per match learns.
         model: policy and value network.
+        evaluator: evaluates them, on the threads of the run.
         collector: plays the matches.
         ppo: updates the model.
         learning_rate: step size of the updates.
@@ -99,6 +102,7 @@ class Trainer:
         self.model, sharing = build_networks(
             args.network, self.task, self.stack, matches.state_size, self.generator
         )
+        self.evaluator = Evaluator(self.model, Workers(args.threads, args.torch_threads))
         self.collector = _collector(args, self)
         if args.network.initial_policy is not None and not args.resume:
             policy = initial_policy.load(args.network.initial_policy, self.task, self.stack)
@@ -108,7 +112,9 @@ class Trainer:
             self.collector.obs_rms.load_state_dict(initial_policy.statistics(policy, self.stack))
         self.collector.enter(matches, None if self.is_solo else self.curriculum.opponents)
         device = find_device(args.device)
-        self.ppo = PPO(args.ppo, self.model, self.generator, device, sharing)
+        self.ppo = PPO(
+            args.ppo, self.model, self.generator, device, sharing, self.evaluator.workers
+        )
         self.learning_rate = LearningRate(args.ppo)
         self.update_stats: Row = {}
         self.samples, self.updates, self.elapsed = 0, 0, 0.0
@@ -148,7 +154,7 @@ class Trainer:
         gamma = discount_per_decision(args.ppo, args.rollout.action_repeat, self.progress)
         rollout = self.collector.collect(gamma, check_stop)
         with self.clock.measure("learning"):
-            batch = make_batch(rollout, self.model, args.ppo, gamma)
+            batch = make_batch(rollout, self.evaluator, args.ppo, gamma)
         self.samples += len(batch)
         return batch
 
@@ -165,7 +171,7 @@ class Trainer:
         learning_rate = self.learning_rate.start_update(self.progress)
         with self.clock.measure("learning"):
             if self.args.ppo.mirror_augmentation:
-                batch = with_reflections(batch, self.task, self.stack, self.model)
+                batch = with_reflections(batch, self.task, self.stack, self.evaluator)
             warmup = self.updates < self.args.ppo.critic_warmup
             self.update_stats = self.ppo.update(
                 batch, learning_rate, check_stop, critic_only=warmup
@@ -225,7 +231,7 @@ def _collector(args: Args, trainer: Trainer) -> RolloutCollector:
         central = CentralInputs(task, symmetric=symmetric)
     return RolloutCollector(
         args.rollout,
-        trainer.model,
+        trainer.evaluator,
         trainer.generator,
         trainer.clock,
         trainer.curriculum.kinds,

@@ -8,7 +8,7 @@ from benches.learning.experiments import Experiment, Study
 from benches.learning.reporting import robustness
 from benches.learning.reporting.collection import Collected, collect
 from benches.learning.run_files import Folders
-from benches.learning.senses import CONDITIONS
+from rsoccer.benchmark.conditions import CONDITIONS
 from tests.benches.learning.made_up import store
 
 TASK = "SSLGoToBall-v0"

@@ -1,4 +1,4 @@
-"""Senses and varied numbers under which policies of the study of robustness are evaluated."""
+"""Senses and varied numbers under which policies are evaluated for their robustness."""
 
 from __future__ import annotations
 
@@ -6,11 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Final
 
-from rsoccer import Sensing
+from rsoccer._core import Sensing
 from rsoccer.registry import make_task
 
-MATCHES: Final = 200
-"""Matches under each condition, half of them on each side in two-sided tasks."""
 VARIED: Final = 0.1
 """Largest deviation of masses and frictions, as a part of them."""
 BALL: Final = (
@@ -27,13 +25,13 @@ class Condition:
     """Knowledge of the robots, and differences between the episodes of an evaluation."""
 
     text: str
-    """Description for tables."""
+    """description for tables"""
     preset: str = "none"
-    """Preset of `Sensing`."""
+    """preset of `Sensing`"""
     numbers: Mapping[str, float] = field(default_factory=dict)
-    """Numbers of `Sensing` that differ from the preset."""
+    """numbers of `Sensing` that differ from the preset"""
     varies: bool = False
-    """Masses and frictions vary."""
+    """whether masses and frictions vary"""
 
     def sensing(self, changes: Mapping[str, float]) -> Sensing | None:
         """Return the senses; None for the true state.
@@ -61,8 +59,10 @@ class Condition:
         }
 
 
+TRUTH: Final = "truth"
+"""Name of the condition in which robots know the true state."""
 CONDITIONS: Final = {
-    "truth": Condition("the true state"),
+    TRUTH: Condition("the true state"),
     "friendly": Condition("`friendly`", "friendly"),
     "rc2021": Condition("`rc2021`", "rc2021"),
     "realistic": Condition("`realistic`", "realistic"),

@@ -1,0 +1,196 @@
+//! The tracker on its own, for detections of cameras that watch other simulators and real robots.
+
+use crate::error::ConfigError;
+use crate::geometry::motion::Motion;
+use crate::math::{Vec3, Vector};
+use crate::models::config::SimConfig;
+use crate::models::sensing::Sensing;
+use crate::senses::detections::{DetectedBall, DetectedRobot, Detections};
+use crate::senses::row;
+use crate::senses::track::unit;
+use crate::senses::tracker::Tracker;
+
+/// Frame rate that filters count with unless the senses have one, Hz.
+const FRAME_RATE: f32 = 60.0;
+
+/// Time without a detection after which a robot counts as absent, s.
+const ABSENT: f64 = 0.5;
+
+/// A robot that a camera detected.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SeenRobot {
+    /// Index of the robot in a state row.
+    pub robot: usize,
+    /// x and y, m.
+    pub position: [f32; 2],
+    /// Cosine and sine; any length above 0.
+    pub heading: [f32; 2],
+}
+
+/// Estimates of all bodies from detections of cameras, by the filters of the senses.
+#[derive(Debug, Clone)]
+pub struct VisionTracker {
+    config: SimConfig,
+    sensing: Sensing,
+    tracker: Tracker,
+    /// Time of the last frame, s; `None` before the first.
+    time: Option<f64>,
+    has_ball: bool,
+    /// Time of the last detection of each robot, s.
+    robots_seen: Vec<f64>,
+}
+
+impl VisionTracker {
+    /// A tracker that has seen nothing. Its filters are those for the noise and frame rate of the senses of the
+    /// configuration; without senses the least noise that filters count with, at 60 Hz.
+    ///
+    /// # Errors
+    /// As [`SimConfig::validate`].
+    pub fn new(config: &SimConfig) -> Result<Self, ConfigError> {
+        config.validate()?;
+        let mut sensing = config.sensing.clone().map_or_else(|| Sensing::preset("none"), Ok)?;
+        sensing.tracker = 1.0;
+        let rate = if sensing.frame_rate > 0.0 { sensing.frame_rate } else { FRAME_RATE };
+        let robots = config.n_robots();
+        let tracker = Tracker::new(robots, &sensing, 1.0 / rate);
+        let (config, robots_seen) = (config.clone(), vec![f64::NEG_INFINITY; robots]);
+        Ok(Self { config, sensing, tracker, time: None, has_ball: false, robots_seen })
+    }
+
+    /// Configuration of the match.
+    pub fn config(&self) -> &SimConfig {
+        &self.config
+    }
+
+    /// Time of the last frame, s; `None` before the first.
+    pub fn time(&self) -> Option<f64> {
+        self.time
+    }
+
+    /// Whether a ball has been seen.
+    pub fn has_ball(&self) -> bool {
+        self.has_ball
+    }
+
+    /// Whether a robot was seen not long before the last frame.
+    pub fn has_robot(&self, robot: usize) -> bool {
+        self.time.is_some_and(|time| time - self.robots_seen[robot] <= ABSENT)
+    }
+
+    /// Takes in the detections of a camera: balls, of which one may be real, with the likeliest first, and
+    /// robots. Returns false, and changes nothing, if it is older than the last one.
+    pub fn take(&mut self, time: f64, balls: &[[f32; 2]], robots: &[SeenRobot]) -> bool {
+        if self.time.is_some_and(|last| time < last) {
+            return false;
+        }
+        let is_known = |seen: &SeenRobot| time - self.robots_seen[seen.robot] <= ABSENT;
+        let (known, new): (Vec<SeenRobot>, Vec<SeenRobot>) =
+            robots.iter().copied().partition(is_known);
+        if self.time.is_some() {
+            let balls: &[[f32; 2]] = if self.has_ball { balls } else { &[] };
+            let frame = detections(time, balls, &known);
+            self.tracker.take(&self.sensing, &frame, self.config.ball.radius);
+        }
+        // A body that has just come into sight rests until it is seen again.
+        let first = balls.len().min(usize::from(!self.has_ball));
+        self.tracker.begin(&detections(time, &balls[..first], &new));
+        self.time = Some(time);
+        self.has_ball |= first > 0;
+        for seen in robots {
+            self.robots_seen[seen.robot] = time;
+        }
+        true
+    }
+
+    /// Writes the state at the last frame. Robots that were not seen for half a second are absent, where they were
+    /// seen last.
+    ///
+    /// # Panics
+    /// If `out` is no row.
+    pub fn write_row(&self, out: &mut [f32]) {
+        let absent = |robot: usize| {
+            let track = &self.tracker.robots[robot];
+            (!self.has_robot(robot)).then_some((track.track.position, track.heading.heading))
+        };
+        row::write_known(&self.tracker, 0, &[], absent, out);
+    }
+}
+
+/// A frame with bodies at rest.
+fn detections(time: f64, balls: &[[f32; 2]], robots: &[SeenRobot]) -> Detections {
+    let mut frame = Detections::default();
+    frame.begin(time, time);
+    let (velocity, height, spin) = (Vector::ZERO, [0.0; 2], Vec3::ZERO);
+    frame.balls.extend(balls.iter().map(|&place| {
+        let position = Vector::from(place);
+        DetectedBall { position, velocity, height, spin }
+    }));
+    frame.robots.extend(robots.iter().map(|seen| {
+        let heading = unit(Vector::from(seen.heading));
+        let motion = Motion::at_rest(Vector::from(seen.position), heading);
+        DetectedRobot { robot: seen.robot, motion }
+    }));
+    frame
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::columns::{ABSENT_COLUMN, BALL_COLUMNS};
+
+    const PERIOD: f64 = 1.0 / 60.0;
+    const ROBOT: usize = BALL_COLUMNS.len();
+
+    fn tracker() -> VisionTracker {
+        VisionTracker::new(&SimConfig::ssl(1, 1)).expect("a valid configuration")
+    }
+
+    fn row(tracker: &VisionTracker) -> Vec<f32> {
+        let mut out = vec![f32::NAN; tracker.config().row_size()];
+        tracker.write_row(&mut out);
+        assert!(out.iter().all(|number| number.is_finite()));
+        out
+    }
+
+    fn seen(x: f32) -> SeenRobot {
+        SeenRobot { robot: 0, position: [x, 1.0], heading: [2.0, 0.0] }
+    }
+
+    #[test]
+    fn velocities_of_bodies_in_steady_motion_are_found() {
+        let mut tracker = tracker();
+        for frame in 0..60_u8 {
+            let x = f32::from(frame) / 60.0;
+            assert!(tracker.take(f64::from(frame) * PERIOD, &[[x, 0.5 * x]], &[seen(-x)]));
+        }
+        let row = row(&tracker);
+        let near = |column: usize, expected: f32| (row[column] - expected).abs() < 0.02;
+        assert!(near(3, 1.0) && near(4, 0.5), "{row:?}");
+        assert!(near(ROBOT + 4, -1.0) && near(ROBOT + 5, 0.0), "{row:?}");
+        assert!(near(ROBOT, -59.0 / 60.0) && row[ROBOT + ABSENT_COLUMN] == 0.0, "{row:?}");
+        assert!(tracker.has_ball() && tracker.has_robot(0) && !tracker.has_robot(1));
+    }
+
+    #[test]
+    fn nothing_is_known_before_it_is_seen_and_robots_out_of_sight_are_absent() {
+        let mut tracker = tracker();
+        assert!(tracker.time().is_none() && !tracker.has_ball() && !tracker.has_robot(0));
+        assert!(tracker.take(5.0, &[], &[seen(0.3)]));
+        assert!(row(&tracker)[ROBOT + ABSENT_COLUMN] == 0.0);
+        assert!(tracker.take(5.6, &[[1.0, 2.0]], &[]));
+        let gone = row(&tracker);
+        assert!(gone[ROBOT + ABSENT_COLUMN] == 1.0 && (gone[ROBOT] - 0.3).abs() < 1e-6);
+        assert!(tracker.take(5.7, &[], &[seen(-2.0)]));
+        let back = row(&tracker);
+        assert!(back[ROBOT..ROBOT + 6] == [-2.0, 1.0, 1.0, 0.0, 0.0, 0.0], "{back:?}");
+    }
+
+    #[test]
+    fn a_frame_of_the_past_changes_nothing() {
+        let mut tracker = tracker();
+        assert!(tracker.take(5.0, &[[1.0, 2.0]], &[seen(0.3)]));
+        let before = row(&tracker);
+        assert!(!tracker.take(4.9, &[[2.0, 2.0]], &[seen(0.5)]));
+        assert!(row(&tracker) == before && tracker.time() == Some(5.0));
+    }
+}

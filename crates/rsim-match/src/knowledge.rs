@@ -1,0 +1,60 @@
+//! Numbers of a configuration that referees and scripted sides read.
+
+use rsim_core::{Body, Drive, RobotModel, SimConfig};
+use rsim_referee::Lines;
+use rsim_referee::pitch::Pitch;
+use rsim_teams::RobotNumbers;
+
+/// Lines and walls of the field of a configuration.
+pub fn lines(config: &SimConfig) -> Lines {
+    let field = &config.field;
+    Lines {
+        half_length: field.half_length(),
+        half_width: field.half_width(),
+        half_goal_width: field.goal_width / 2.0,
+        goal_height: field.goal_height,
+        area_depth: field.goal_area_depth,
+        half_area_width: field.goal_area_width / 2.0,
+        inner_area_depth: field.inner_area_depth,
+        half_inner_area_width: field.inner_area_width / 2.0,
+        line_width: field.line_width,
+        corner_leg: field.corner_leg,
+        goal_wall_thickness: field.goal_wall_thickness,
+        center_circle_radius: field.center_circle_radius,
+        penalty_mark_distance: field.penalty_mark_distance,
+        boundary_x: field.half_length() + field.goal_line_margin,
+        boundary_y: field.half_width() + field.touch_line_margin,
+        free_ball_x: field.free_ball_x,
+        free_ball_y: field.free_ball_y,
+    }
+}
+
+/// Numbers of a configuration that the rules read.
+pub fn pitch(config: &SimConfig) -> Pitch {
+    Pitch {
+        lines: lines(config),
+        robot_radius: config.robots().map(RobotModel::bounding_radius).fold(0.0, f32::max),
+        ball_radius: config.ball.radius,
+        time_step: config.time_step,
+    }
+}
+
+/// Numbers of a robot that scripted sides read; `None` for one that is not round, without an
+/// omnidirectional drive or without a mouth.
+pub fn robot_numbers(robot: &RobotModel) -> Option<RobotNumbers> {
+    let (Body::Round { radius, front_distance }, Drive::Omni(drive), Some(mouth)) =
+        (robot.body, robot.drive, &robot.mouth)
+    else {
+        return None;
+    };
+    Some(RobotNumbers {
+        radius,
+        front_distance,
+        max_speed: drive.max_speed,
+        max_acceleration: drive.max_acceleration,
+        max_deceleration: drive.max_deceleration,
+        max_angular_velocity: drive.max_angular_velocity,
+        max_kick_speed: mouth.max_kick_speed,
+        max_chip_speed: mouth.max_chip_speed,
+    })
+}

@@ -1,0 +1,29 @@
+//! One whole match without Python: physics, referee, scripted SSL teams, networks and people.
+//!
+//! A [`Match`] is what `rsoccer` plays as `SSLMatch-v0` and `VSSMatch-v0`, for one world at a time and in programs
+//! that have no Python, such as a page in a browser. A [`Side`] drives a team; a person may drive single robots
+//! of it. The same setup and the same calls give the same bytes on every platform.
+
+mod actions;
+mod conditions;
+mod error;
+mod files;
+mod knowledge;
+mod network;
+mod observations;
+mod person;
+mod player;
+mod setup;
+mod side;
+mod whole_match;
+
+pub use conditions::Conditions;
+pub use error::MatchError;
+pub use knowledge::{lines, pitch, robot_numbers};
+pub use network::Network;
+pub use observations::Observations;
+pub use person::Controls;
+pub use player::Player;
+pub use setup::Setup;
+pub use side::Side;
+pub use whole_match::{Decision, Match};

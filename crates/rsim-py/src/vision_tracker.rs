@@ -1,0 +1,112 @@
+//! Tracker: from detections of cameras to states.
+
+use numpy::{Ix2, PyReadonlyArray};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use rsim_core::SeenRobot;
+
+use crate::arrays::{RowsOut, finite, readable, sizes, values, writeable};
+use crate::config::{SimConfig, invalid};
+
+/// Columns of a detected robot: index, position, cosine and sine of the heading.
+const ROBOT_COLUMNS: usize = 5;
+
+/// Estimates of all bodies from detections of cameras.
+#[pyclass(module = "rsoccer._core")]
+pub(crate) struct VisionTracker(rsim_core::VisionTracker);
+
+/// Numbers of detected bodies.
+type Detected<'py> = PyReadonlyArray<'py, f32, Ix2>;
+
+#[pymethods]
+impl VisionTracker {
+    #[new]
+    #[pyo3(signature = (config))]
+    fn new(config: SimConfig) -> PyResult<Self> {
+        rsim_core::VisionTracker::new(&config.0).map(Self).map_err(invalid)
+    }
+
+    #[getter]
+    fn config(&self) -> SimConfig {
+        SimConfig(self.0.config().clone())
+    }
+
+    #[getter]
+    fn time(&self) -> Option<f64> {
+        self.0.time()
+    }
+
+    #[getter]
+    fn has_ball(&self) -> bool {
+        self.0.has_ball()
+    }
+
+    #[getter]
+    fn robots_in_sight(&self) -> Vec<usize> {
+        (0..self.0.config().n_robots()).filter(|&robot| self.0.has_robot(robot)).collect()
+    }
+
+    fn take(
+        &mut self,
+        time: f64,
+        balls: &Bound<'_, PyAny>,
+        robots: &Bound<'_, PyAny>,
+    ) -> PyResult<bool> {
+        if !time.is_finite() {
+            return Err(PyValueError::new_err(format!("time must be finite, got {time}")));
+        }
+        let balls = numbers("balls", balls, 2)?;
+        let balls: Vec<[f32; 2]> = balls.chunks_exact(2).map(|ball| [ball[0], ball[1]]).collect();
+        let seen = numbers("robots", robots, ROBOT_COLUMNS)?;
+        let robots = seen.chunks_exact(ROBOT_COLUMNS).map(|columns| self.robot(columns));
+        let robots = robots.collect::<PyResult<Vec<SeenRobot>>>()?;
+        Ok(self.0.take(time, &balls, &robots))
+    }
+
+    fn read(&self, out: &Bound<'_, PyAny>) -> PyResult<()> {
+        let mut out: RowsOut = writeable("out", out, &[1, self.0.config().row_size()])?;
+        self.0.write_row(out.as_slice_mut()?);
+        Ok(())
+    }
+
+    fn __repr__(&self) -> String {
+        let robots = self.0.config().n_robots();
+        let time = self.0.time().map_or_else(|| "None".to_owned(), |time| format!("{time:?}"));
+        format!("VisionTracker({robots} robots, time={time})")
+    }
+}
+
+impl VisionTracker {
+    /// A detected robot.
+    fn robot(&self, columns: &[f32]) -> PyResult<SeenRobot> {
+        let [index, x, y, cos, sin] = columns else { unreachable!("the shape has been checked") };
+        let count = self.0.config().n_robots();
+        let Some(robot) = (0..count).find(|&robot| is_number(robot, *index)) else {
+            return Err(PyValueError::new_err(format!(
+                "robots must have indices from 0 to {}, got {index}",
+                count.saturating_sub(1)
+            )));
+        };
+        if cos * cos + sin * sin < 1e-6 {
+            return Err(PyValueError::new_err(format!(
+                "robots must have headings of a length above 0, got {cos}, {sin}"
+            )));
+        }
+        Ok(SeenRobot { robot, position: [*x, *y], heading: [*cos, *sin] })
+    }
+}
+
+/// Whether a number is an index.
+#[expect(clippy::cast_precision_loss, clippy::float_cmp, reason = "at most 22 robots")]
+fn is_number(robot: usize, number: f32) -> bool {
+    robot as f32 == number
+}
+
+/// Checks an array of detected bodies with these columns.
+fn numbers(name: &str, value: &Bound<'_, PyAny>, columns: usize) -> PyResult<Vec<f32>> {
+    let [count, _] = sizes::<2>(name, value)?;
+    let array: Detected = readable(name, value, &[count, columns])?;
+    let array = values(&array).into_owned();
+    finite(name, &array)?;
+    Ok(array)
+}

@@ -1,0 +1,216 @@
+"""Validation of entries: what makes a file of the leaderboard invalid."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, Final
+
+from rsoccer._core import build_info
+from rsoccer.benchmark.entry import FORMAT, Entry, Row, digest
+from rsoccer.benchmark.measuring import measured
+from rsoccer.benchmark.protocol import MATCHES, SEED, TASKS, rows_of
+from rsoccer.registry import make_task
+
+_TYPES: Final[dict[str, type]] = {
+    **dict.fromkeys(("name", "policy", "digest", "description", "link", "date"), str),
+    **dict.fromkeys(("matches", "seed"), int),
+    **dict.fromkeys(("versions", "machine", "tasks", "refused"), dict),
+    "robust": bool,
+}
+_ROW_TYPES: Final[dict[str, type]] = {
+    **dict.fromkeys(("opponent", "condition", "metric"), str),
+    **dict.fromkeys(("matches", "wins", "draws", "losses"), int),
+    **dict.fromkeys(("score", "low", "high", "seconds", "wall_clock"), float),
+}
+_MACHINE: Final = ("processor", "cores", "system", "python", "numpy")
+
+
+class EntryError(ValueError):
+    """A file that is no valid entry of the leaderboard; its text lists all problems."""
+
+
+def read_entry(path: str | os.PathLike[str], *, partial: bool = False) -> Entry:
+    """Read an entry and check it.
+
+    Args:
+        path: the file.
+        partial: whether rows may be missing, as in a measurement that goes on.
+
+    Returns:
+        The entry.
+
+    Raises:
+        EntryError: a file that is no JSON, or an entry with problems.
+        FileNotFoundError: there is no such file.
+    """
+    try:
+        values = json.loads(Path(path).read_text())
+    except ValueError as error:
+        raise EntryError(f"{path}: expected JSON: {error}") from error
+    if found := problems(values, partial=partial):
+        raise EntryError(f"{path}: {'; '.join(found)}")
+    return Entry.from_values(values)
+
+
+def problems(values: object, *, partial: bool = False) -> list[str]:
+    """Return all reasons for which an entry is invalid, in words; empty for a valid one.
+
+    Args:
+        values: the decoded JSON of the file.
+        partial: whether rows may be missing, and matches fewer than the leaderboard asks for.
+    """
+    if not isinstance(values, Mapping):
+        return [f"expected an object, got {type(values).__name__}"]
+    if values.get("format") != FORMAT:
+        return [f"format: expected {FORMAT}, got {values.get('format')!r}"]
+    others = {name: value for name, value in values.items() if name != "format"}
+    if wrong := list(_wrong_types("", others, _TYPES)):
+        return wrong
+    found = list(_protocol(values, partial))
+    for task, rows in values["tasks"].items():
+        found += (f"{task}: {text}" for text in _task(values, task, rows, partial))
+    if not partial:
+        found += _completeness(values)
+    return found
+
+
+def is_current(entry: Entry) -> bool:
+    """Return whether an entry was measured with the present version of the physics.
+
+    Args:
+        entry: the entry.
+    """
+    return entry.versions["physics"] == int(build_info()["physics"])
+
+
+def _wrong_types(where: str, values: Mapping[str, Any], types: Mapping[str, type]) -> Iterator[str]:
+    for name in sorted(types.keys() - values.keys()):
+        yield f"{where}{name}: missing"
+    for name in sorted(values.keys() - types.keys()):
+        yield f"{where}{name}: unknown"
+    for name, expected in types.items():
+        value = values.get(name)
+        if name not in values or (expected is float and type(value) is int):
+            continue
+        if type(value) is not expected:
+            yield f"{where}{name}: expected {expected.__name__}, got {value!r}"
+
+
+def _protocol(values: Mapping[str, Any], partial: bool) -> Iterator[str]:
+    """Problems of the head of an entry."""
+    if not values["name"].strip():
+        yield "name: expected a text, got an empty one"
+    if values["seed"] != SEED:
+        yield f"seed: expected {SEED}, got {values['seed']}"
+    if not partial and values["matches"] < MATCHES:
+        yield f"matches: expected at least {MATCHES}, got {values['matches']}"
+    physics, newest = values["versions"].get("physics"), int(build_info()["physics"])
+    if type(physics) is not int or not 1 <= physics <= newest:
+        yield f"versions.physics: expected 1 to {newest}, got {physics!r}"
+    for name in (each for each in _MACHINE if each not in values["machine"]):
+        yield f"machine.{name}: missing"
+    if unknown := sorted({*values["tasks"], *values["refused"]} - {*TASKS}):
+        yield f"tasks: expected some of {list(TASKS)}, got {unknown}"
+
+
+def _task(values: Mapping[str, Any], task: str, rows: object, partial: bool) -> Iterator[str]:
+    """Problems of the rows of a task."""
+    if task not in TASKS:
+        return
+    if not isinstance(rows, list) or not all(isinstance(row, Mapping) for row in rows):
+        yield f"expected a list of rows, got {type(rows).__name__}"
+        return
+    for index, row in enumerate(rows):
+        if wrong := list(_wrong_types(f"row {index}: ", row, _ROW_TYPES)):
+            yield from wrong
+            return
+        yield from (f"row {index}: {text}" for text in _row(task, values["matches"], Row(**row)))
+    expected = [(opponent or "-", name) for opponent, name in rows_of(task, values["robust"])]
+    got = [(row["opponent"], row["condition"]) for row in rows]
+    if partial and set(got) <= set(expected) and len(set(got)) == len(got):
+        return
+    if sorted(got) != sorted(expected):
+        missing = [row for row in expected if row not in got]
+        others = [row for row in got if row not in expected or got.count(row) > 1]
+        yield f"rows: expected each opponent and condition once, missing {missing}, got {others}"
+
+
+def _row(task: str, matches: int, row: Row) -> Iterator[str]:
+    """Problems of the numbers of a row."""
+    made = make_task(task)
+    if row.metric != made.success:
+        yield f"metric: expected {made.success!r}, got {row.metric!r}"
+    if row.matches != matches:
+        yield f"matches: expected {matches}, got {row.matches}"
+    counts = (row.wins, row.draws, row.losses)
+    yield from _numbers(made.two_sided, counts, row)
+
+
+def _numbers(two_sided: bool, counts: tuple[int, int, int], row: Row) -> Iterator[str]:
+    """Counts, score and times of a row that cannot be those of matches."""
+    if min(counts) < 0 or sum(counts) != row.matches:
+        yield f"wins, draws, losses: expected {row.matches} in all, got {counts}"
+    numbers = {name: getattr(row, name) for name in _ROW_TYPES if _ROW_TYPES[name] is float}
+    if wrong := [name for name, value in numbers.items() if not math.isfinite(value)]:
+        yield f"{', '.join(wrong)}: expected finite numbers"
+        return
+    if not row.low <= row.score <= row.high:
+        yield f"score: expected low <= score <= high, got {row.low}, {row.score}, {row.high}"
+    # A match that ends by its first goal, or by success, scores 1 at most.
+    if two_sided and abs(row.score - (row.wins - row.losses) / row.matches) > 1e-9:
+        yield f"score: expected (wins - losses) / matches of {counts}, got {row.score}"
+    if (row.score < 0.0 and not row.losses) or (row.score > 0.0 and not row.wins):
+        yield f"score: expected that of {counts} wins, draws and losses, got {row.score}"
+    if row.seconds <= 0.0 or row.wall_clock < 0.0:
+        yield f"seconds: expected a positive time, got {row.seconds}"
+
+
+def _completeness(values: Mapping[str, Any]) -> Iterator[str]:
+    """Tasks without rows, or refused although the policy plays them."""
+    if not values["tasks"]:
+        yield "tasks: expected rows of at least one task, got none"
+    for task in sorted({*values["tasks"]} & {*values["refused"]}):
+        yield f"{task}: expected rows or a reason, got both"
+
+
+def replayed(entry: Entry, task: str, threads: int | None = None) -> list[str]:
+    """Play the matches of a task again and compare the scores.
+
+    Equal physics gives equal matches, but the last bits of a network's actions may differ between
+    machines. A score that lies in the interval of the row is therefore taken as the same.
+
+    Args:
+        entry: a valid entry.
+        task: name of a task that it has rows of.
+        threads: threads of the simulator; by default one per available processor.
+
+    Returns:
+        The rows whose score is another one, in words.
+
+    Raises:
+        ValueError: the entry has no rows of the task, is of another version of the physics, or of
+            another content of the policy file.
+        FileNotFoundError: the policy is a file that is not here.
+        ImportError: the policy is code that is not here.
+    """
+    if task not in entry.tasks:
+        raise ValueError(f"replay: expected one of {list(entry.tasks)}, got {task!r}")
+    physics = int(build_info()["physics"])
+    if not is_current(entry):
+        raise ValueError(f"replay: expected physics {physics}, got {entry.versions['physics']}")
+    if entry.digest != digest(entry.policy):
+        raise ValueError(f"replay: {entry.policy} is not the file that was measured")
+    differing = []
+    for row in entry.tasks[task]:
+        opponent = None if row.opponent == "-" else row.opponent
+        again = measured(entry.policy, task, opponent, row.condition, entry.matches, threads)
+        if not row.low <= again.score <= row.high:
+            differing.append(
+                f"{task}, opponent {row.opponent}, condition {row.condition}: expected a score of "
+                f"{row.low:.3f} to {row.high:.3f}, got {again.score:.3f}"
+            )
+    return differing

@@ -1,0 +1,289 @@
+"""A connection to robots: commands out, states in, and robots that stop when either fails."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from typing import Final
+
+import numpy as np
+
+from rsoccer._core import SimConfig
+from rsoccer.arrays import Floats, Mask
+from rsoccer.drive.guard_process import GuardProcess
+from rsoccer.drive.limits import limited, stopped
+from rsoccer.drive.link import Link, SocketLink
+from rsoccer.drive.officials import Officials
+from rsoccer.drive.peers import Message, make_layout, make_peer
+from rsoccer.drive.reception import Reception
+from rsoccer.drive.settings import Settings
+from rsoccer.frame import Frame
+from rsoccer.game import BLUE
+from rsoccer.protocols.layout import WireLayout
+from rsoccer.rules.referee_config import RefereeConfig
+
+DRIVEN: Final = (BLUE,)
+"""Teams of the package whose robots a connection drives by default."""
+MAX_AGE: Final = 0.1
+"""Time since the last frame up to which time goes on without one, s."""
+END_MESSAGES: Final = 5
+"""Messages that stop the robots at the end: one may be lost."""
+
+
+class Connection:
+    """A connection.
+
+    Attributes:
+        config: field, ball and robots as policies know them.
+        settings: the settings.
+        sight: what is seen.
+        officials: the referee.
+        counts: numbers of datagrams by what became of them, such as "vision: unreadable".
+        contact: returns robots whose break beam is known, and those whose break beam is cut.
+        on_event: called with words for what happens to vision, sides and referee.
+        on_sent: called with time and commands (robots, command) when robots get others than before.
+        frame: frame of one world that limits near the ball go by; the owner keeps it current.
+    """
+
+    def __init__(
+        self,
+        config: SimConfig,
+        settings: Settings,
+        *,
+        drives: Sequence[int] = DRIVEN,
+        rules: RefereeConfig | None = None,
+        link: Link | None = None,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        """Open the connection; robots are commanded to stand.
+
+        Args:
+            config: field, ball and robots.
+            settings: the settings.
+            drives: teams to drive, in the package.
+            rules: rules of the match, for what the referee allows; None for those of the league.
+            link: what carries datagrams; None for sockets.
+            clock: time on the wall, s.
+
+        Raises:
+            OSError: a port is taken, or an address is not one of this machine.
+            ValueError: uniform numbers or robots that the match or the peer cannot have.
+        """
+        self.config, self.settings = config, settings
+        self._clock = clock
+        self._peer = make_peer(settings)
+        positive = settings.blue_on_positive_half
+        positive = settings.peer == "firasim" if positive is None else positive
+        layout = make_layout(settings, config, positive=positive)
+        self.officials = Officials(settings, rules, clock)
+        self._reception = Reception(settings, layout, self._peer, self.officials, clock)
+        self.sight, self.counts = self._reception.sight, self._reception.counts
+        self.on_event, self.contact = self._reception.on_event, self._reception.contact
+        self._teams = tuple(layout.exchanged(team) for team in drives)
+        self.on_sent: list[Callable[[float, Floats], None]] = []
+        self.frame = Frame.empty(1, config.n_blue, config.n_yellow)
+        shape = (config.n_robots, len(config.command_columns))
+        self._stopped: Floats = np.zeros(shape, np.float32)
+        self._sent: Floats | None = None
+        self._is_closed = False
+        self._sent_at = clock()
+        self._now = 0.0
+        stops = self._messages(self._stopped)  # raises for robots that the peer cannot have
+        self._link: Link = SocketLink(settings) if link is None else link
+        self._guard: GuardProcess | None = None
+        try:
+            if settings.guard and isinstance(self._link, SocketLink):
+                times = settings.guard_timeout, settings.rate
+                self._guard = GuardProcess(self._link, stops, *times)
+            self._send(self._stopped)
+        except BaseException:
+            self.close()
+            raise
+
+    @property
+    def driven(self) -> Mask:
+        """(robots,) robots that are driven."""
+        driven = np.zeros(self.config.n_robots, np.bool_)
+        for team in self._teams:
+            slots = self.layout.slots(team)
+            driven[slots.start : slots.stop] = True
+        return driven
+
+    @property
+    def now(self) -> float:
+        """Time by the clock of the frames, s; a simulator that waits stands still between them."""
+        since = 0.0 if self.settings.is_synchronous else min(self._reception.silence, MAX_AGE)
+        # A frame that was late on its way does not turn time back.
+        self._now = max(self._now, self.sight.clock.now + since)
+        return self._now
+
+    @property
+    def layout(self) -> WireLayout:
+        """Sides and numbers on the wire."""
+        return self._reception.layout
+
+    # -- What goes on ----------------------------------------------------------------------------
+
+    def advance(self, commands: Floats, until: float) -> None:
+        """Give robots their commands, until a time.
+
+        The commands go out now and with each frame. Robots stop while there are no frames; the
+        first one then ends the call, so that nobody goes on with an old command.
+
+        Args:
+            commands: (robots, command) commands, finite.
+            until: time by the clock of the frames at which the call ends, with the first frame of
+                it or later, s.
+
+        Raises:
+            ConnectionError: there are no frames for `patience`.
+            RuntimeError: the simulator refuses all commands, or the guard has ended.
+        """
+        self._send(commands)
+        self._pump(commands, lambda: self.sight.clock.now >= until, "a frame")
+
+    def stand(self, is_done: Callable[[], bool], wanted: str) -> None:
+        """Let robots stand until a condition holds; it is asked after each frame.
+
+        Args:
+            is_done: whether it holds.
+            wanted: words for it.
+
+        Raises:
+            ConnectionError: it does not hold for `patience`.
+            RuntimeError: the simulator refuses all commands, or the guard has ended.
+        """
+        self._send(self._stopped)
+        self._pump(self._stopped, is_done, wanted, stands=True)
+
+    def begin(self) -> None:
+        """Wait until the ball and all robots that are driven are in sight.
+
+        Raises:
+            ConnectionError: they are not for `patience`. The message has what is in sight.
+            RuntimeError: the simulator refuses all commands, or the guard has ended.
+        """
+        if self._reception.silence > self.settings.seconds_to_stop or not self._is_ready():
+            seen = self.sight.frames
+            self.stand(lambda: self.sight.frames > seen and self._is_ready(), "all in sight")
+
+    def put(self, messages: Sequence[Message]) -> None:
+        """Send messages that put bodies.
+
+        Args:
+            messages: the messages, of `peer`.
+        """
+        self._link.send(messages)
+
+    def placement(self, frame: Frame, *, ball_only: bool = False) -> list[Message]:
+        """Return the messages that put bodies.
+
+        Args:
+            frame: frame of one world.
+            ball_only: whether robots stay.
+        """
+        if ball_only:
+            return self._peer.ball_placement(self.layout, frame)
+        return self._peer.placement(self.layout, frame, self.sight.strangers)
+
+    def forget(self) -> None:
+        """Forget all estimates, as bodies have been put somewhere."""
+        self.sight.turn(self.layout)
+
+    def stop(self) -> None:
+        """Tell the robots to stand; the guard tells them again while nothing else is sent."""
+        for _ in range(END_MESSAGES):
+            self._send(self._stopped)
+
+    def close(self) -> None:
+        """Stop the robots and close the connection; a second call does nothing."""
+        if self._is_closed:
+            return
+        self._is_closed = True
+        for _ in range(END_MESSAGES):
+            self._link.send(self._messages(self._stopped))
+        if self._guard is not None:
+            self._guard.close()
+        self._link.close()
+
+    # -- Parts -----------------------------------------------------------------------------------
+
+    def _pump(
+        self,
+        commands: Floats,
+        is_done: Callable[[], bool],
+        wanted: str,
+        *,
+        stands: bool = False,
+    ) -> None:
+        settings = self.settings
+        begun, period, lost = self._clock(), 1.0 / settings.rate, False
+        while True:
+            was_halted = self.officials.is_halted
+            frames, before = self.sight.frames, self.sight.clock.now
+            waited = 0.0 if settings.is_synchronous else self._clock() - self._sent_at
+            is_newer = self._take(min(max(0.0, period - waited), period))
+            came = self.sight.frames - frames
+            if is_newer and (is_done() or (lost and self.sight.clock.now > before)):
+                self._answer(commands, came - 1)
+                if lost:
+                    self._reception.tell(f"{settings.source}: back")
+                return
+            is_urgent = self.officials.is_halted != was_halted
+            if not lost and self._reception.silence > settings.seconds_to_stop:
+                lost, commands, is_urgent = True, self._stopped, True
+                self.counts[f"{settings.source}: lost"] += 1
+                self._reception.tell(f"{settings.source}: lost, robots stop")
+            is_due = self._clock() >= self._sent_at + period
+            if came:
+                self._answer(commands, came)
+            elif is_urgent or (is_due and (lost or not settings.is_synchronous)):
+                self._send(commands)
+            self._check(wanted, self._clock() - begun if stands else self._reception.silence)
+
+    def _answer(self, commands: Floats, frames: int) -> None:
+        """Send commands for frames; a simulator that waits for its clients counts them."""
+        for _ in range(frames if self.settings.is_synchronous else min(frames, 1)):
+            self._send(commands)
+
+    def _check(self, wanted: str, seconds: float) -> None:
+        refusal = self._reception.lasting_refusal()
+        if refusal is not None:
+            raise RuntimeError(refusal)
+        if seconds > self.settings.patience:
+            raise ConnectionError(
+                f"{self.settings.source}: expected {wanted} within {self.settings.patience:g} s, "
+                f"got {self._reception.in_words(self.driven)}"
+            )
+
+    def _is_ready(self) -> bool:
+        return self.sight.has_ball and bool(self.sight.in_sight[self.driven].all())
+
+    def _take(self, seconds: float) -> bool:
+        """Take in what comes. Return whether the state is a newer one."""
+        newer = [self._reception.take(port, data) for port, data in self._link.poll(seconds)]
+        return any(newer)
+
+    def _messages(self, commands: Floats) -> list[Message]:
+        return [
+            message
+            for team in self._teams
+            for message in self._peer.commands(self.layout, commands, team)
+        ]
+
+    def _send(self, commands: Floats) -> None:
+        """Send commands as referee and limits allow them, and stop robots that nobody sees."""
+        allowed = np.array(self.officials.restrain(self.layout, commands, self.frame), np.float32)
+        in_sight = self.sight.in_sight
+        for slot, model in enumerate(self.config.robots):
+            if in_sight[slot]:
+                allowed[slot] = limited(model, allowed[slot], self.settings.limits)
+        allowed[~in_sight | ~self.driven] = stopped(allowed[0])
+        self._link.send(self._messages(allowed))
+        self._sent_at = self._clock()
+        if self._guard is not None:
+            self._guard.sign()
+        if self._sent is None or not np.array_equal(allowed, self._sent):
+            for listener in self.on_sent:
+                listener(self.now, allowed)
+        self._sent = allowed

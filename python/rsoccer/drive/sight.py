@@ -1,0 +1,181 @@
+"""From frames of vision to the state and its time."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterable
+from typing import Final
+
+import numpy as np
+
+from rsoccer._core import VisionTracker
+from rsoccer.arrays import Floats, Mask
+from rsoccer.drive.peers import Identity
+from rsoccer.drive.vision_clock import VisionClock
+from rsoccer.game import BLUE, YELLOW
+from rsoccer.protocols import vision
+from rsoccer.protocols.layout import MILLIMETERS, WireLayout
+from rsoccer.protocols.parsing import parse
+from rsoccer.protocols.schemas import vision_pb2
+
+ABSENT_SECONDS: Final = 0.5
+"""Time without a sight after which a robot counts as absent, s."""
+AROUND: Final = 3.0
+"""Distance from the lines up to which bodies are believed, m."""
+
+
+class Sight(ABC):
+    """Sight of a match.
+
+    Attributes:
+        layout: sides and numbers on the wire.
+        clock: time by the stamps of the frames.
+        frames: frames so far, copies and those of no use too: a simulator that waits for its
+            clients sends a frame again until it is answered.
+        field_size: length and width of the field by the sender, m; None before they are known.
+        has_ball: whether the ball was seen.
+    """
+
+    def __init__(self, layout: WireLayout) -> None:
+        """Begin before the first frame.
+
+        Args:
+            layout: sides and numbers on the wire.
+        """
+        self.layout = layout
+        self.clock = VisionClock()
+        self.frames = 0
+        self.field_size: tuple[float, float] | None = None
+        self.has_ball = False
+        self._stamp: float | None = None
+        self._senders: set[int] = set()
+        self._seen: dict[Identity, float] = {}
+
+    @abstractmethod
+    def take(self, data: bytes) -> bool:
+        """Take in a datagram.
+
+        Args:
+            data: the bytes.
+
+        Returns:
+            True if the state is a newer one.
+
+        Raises:
+            ValueError: no message of the port, a `MessageError`.
+        """
+
+    @abstractmethod
+    def read(self, out: Floats) -> None:
+        """Write the newest state; robots out of sight are absent.
+
+        Args:
+            out: (1, row) output; touches, crossings and beams are those of a match that begins.
+        """
+
+    @abstractmethod
+    def turn(self, layout: WireLayout) -> None:
+        """Go on with other sides.
+
+        Args:
+            layout: the match.
+        """
+
+    @property
+    def in_sight(self) -> Mask:
+        """(robots,) robots that were seen not long before the newest frame."""
+        identities = (self.layout.identity(slot) for slot in range(self.layout.config.n_robots))
+        return np.array([identity in self._recent for identity in identities], np.bool_)
+
+    @property
+    def strangers(self) -> list[Identity]:
+        """Team and number, on the wire, of robots in sight that the match does not have."""
+        known = {self.layout.identity(slot) for slot in range(self.layout.config.n_robots)}
+        return sorted(self._recent - known)
+
+    def numbers(self, team: int) -> list[int]:
+        """Return the uniform numbers that are in sight.
+
+        Args:
+            team: `BLUE` or `YELLOW`, on the wire.
+        """
+        return sorted(number for color, number in self._recent if color == team)
+
+    @property
+    def _recent(self) -> set[Identity]:
+        now = self.clock.now
+        return {key for key, seen in self._seen.items() if now - seen <= ABSENT_SECONDS}
+
+    def _is_near(self, places: Floats) -> Mask:
+        """Places (k, 2) on the field or around it; others are mistakes of the sender."""
+        field = self.layout.config.field
+        limits = (field.length / 2 + AROUND, field.width / 2 + AROUND)
+        near: Mask = (np.abs(places) <= limits).all(axis=1)
+        return near
+
+    def _time(self, stamp: float, sender: int = 0) -> tuple[float, bool] | None:
+        """Time of a frame, and whether it has jumped; None for a frame that is of no use."""
+        if stamp != self._stamp or sender in self._senders:
+            self.frames += 1  # another frame, or a copy of this one
+            self._senders.clear()
+        self._stamp = stamp
+        self._senders.add(sender)
+        return self.clock.at(stamp)
+
+    def _note(self, identities: Iterable[Identity], time: float) -> None:
+        self._seen.update(dict.fromkeys(identities, time))
+
+
+class DetectionSight(Sight):
+    """Detections of SSL-Vision, filtered by the tracker of the senses."""
+
+    def __init__(self, layout: WireLayout) -> None:
+        """Begin before the first frame.
+
+        Args:
+            layout: sides and numbers on the wire.
+        """
+        super().__init__(layout)
+        self._tracker = VisionTracker(layout.config)
+
+    def take(self, data: bytes) -> bool:
+        """Take in a packet of a camera; see `Sight.take`."""
+        message = parse(vision_pb2.Packet, data)
+        if message.HasField("geometry"):
+            size = message.geometry.field
+            self.field_size = size.field_length / MILLIMETERS, size.field_width / MILLIMETERS
+        if not message.HasField("detection"):
+            return False
+        detection = message.detection
+        before = self.clock.now
+        found = self._time(detection.t_capture, detection.camera_id)
+        if found is None:
+            return False
+        time, jumped = found
+        if jumped:
+            self._tracker = VisionTracker(self.layout.config)
+        seen = vision.to_detections(self.layout, detection)
+        order = np.argsort(-seen.ball_confidence, kind="stable")
+        with_heading = np.flatnonzero(seen.has_heading)
+        robots = np.empty((len(with_heading), 5), np.float32)
+        robots[:, 0] = np.array(seen.slots, np.float32)[with_heading]
+        robots[:, 1:] = seen.robots[with_heading]
+        balls = seen.balls[order, :2].astype(np.float32)
+        near = [self._is_near(places) for places in (balls, robots[:, 1:3])]
+        self._tracker.take(time, balls[near[0]], robots[near[1]])
+        self.has_ball = self._tracker.has_ball
+        groups = ((BLUE, detection.robots_blue), (YELLOW, detection.robots_yellow))
+        self._note(
+            ((team, r.robot_id) for team, group in groups for r in group if r.HasField("robot_id")),
+            time,
+        )
+        return time > before or self.frames == 1
+
+    def read(self, out: Floats) -> None:
+        """Write the newest state; see `Sight.read`."""
+        self._tracker.read(out)
+
+    def turn(self, layout: WireLayout) -> None:
+        """Go on with other sides; see `Sight.turn`."""
+        self.layout, self._tracker = layout, VisionTracker(layout.config)
+        self.has_ball = False

@@ -1,0 +1,264 @@
+"""Robots on a network as the simulator of `Matches`."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rsoccer._core import BALL_COLUMNS, Forecaster
+from rsoccer.arrays import Doubles, Floats, Mask
+from rsoccer.completed import CompletedStepper
+from rsoccer.drive.connection import Connection
+from rsoccer.frame import Frame
+from rsoccer.simulated_senses import SensingStepper
+from rsoccer.simulator_interface import Closer, Placer, Reader, Stepper
+
+TOLERANCE: Final = 0.002
+"""Time by which a frame may be early to end a step, s: stamps are rounded."""
+PLACED: Final = 0.05
+"""Distance from its place up to which a body is where it was put, m."""
+RESTING: Final = 0.05
+"""Speed up to which a ball is where it was put, m/s; a faster one has gone on."""
+FRAMES_TO_ACT: Final = 4
+"""Frames that may pass before one shows bodies where they were put: 60 ms of latency."""
+FRAMES_TO_SHOW: Final = 20
+"""Frames after which bodies are put again: the message may be lost."""
+_BALL_SIZE: Final = len(BALL_COLUMNS)
+_ALL: Final = np.ones(1, np.bool_)
+
+
+class _Poses:
+    """The rows that a connection tells: positions and velocities, without touches and crossings."""
+
+    def __init__(self, connection: Connection) -> None:
+        self._connection = connection
+        self._until = 0.0
+
+    def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> Doubles:
+        connection = self._connection
+        clock, step = connection.sight.clock, connection.config.time_step
+        # Steps have their length in the mean: one that ended late is followed by a short one.
+        self._until += step
+        if not clock.now < self._until <= clock.now + step:
+            self._until = clock.now + step
+        connection.advance(commands[0], self._until - TOLERANCE)
+        return self.read(out)
+
+    def read(self, out: Floats) -> Doubles:
+        self._connection.sight.read(out)
+        return np.array([self._connection.sight.clock.now])
+
+
+class NetworkStepper(Stepper, Reader, SensingStepper, Closer):
+    """Robots on a network, which stay where they are when episodes begin.
+
+    Vision gives the time: a control step ends with the first frame after its length. What the
+    robots know is the state of the newest frame, or, with `sensing` that forecasts, the state in
+    which the next commands act.
+
+    Attributes:
+        connection: the connection.
+    """
+
+    def __init__(self, connection: Connection, *, is_owner: bool = True) -> None:
+        """Step a connection.
+
+        Args:
+            connection: the connection.
+            is_owner: whether `close` closes it; else it stops the robots.
+        """
+        self.connection, self._is_owner = connection, is_owner
+        config, gap = connection.config, connection.settings.contact_gap
+        self._poses = _Poses(connection)
+        self._completed = CompletedStepper(self._poses, config, velocities=False, gap=gap)
+        self._rows = Frame.empty(1, config.n_blue, config.n_yellow)
+        self._forecasters: dict[str, Forecaster] = {}
+        sensing = config.sensing
+        if sensing is not None and sensing.forecast >= 0.5:
+            names = ("blue", "yellow", "all")
+            self._forecasters = {name: Forecaster(config, 1, 1, name) for name in names}
+            connection.on_sent.append(self._note)
+
+    def _note(self, time: float, commands: Floats) -> None:
+        for forecaster in self._forecasters.values():
+            forecaster.send(commands[None], np.array([time]))
+
+    def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> Doubles | None:
+        """Let the robots execute commands for a control step; see `Stepper.step`.
+
+        Raises:
+            ConnectionError: there are no frames for `Settings.patience`.
+            RuntimeError: the simulator refuses all commands, or the guard has ended.
+        """
+        if active is not None and not active[0]:
+            return np.array([self.connection.sight.clock.now])
+        times = self._completed.step(commands, self._rows.rows)
+        self._finish(out)
+        x, y = self._rows.ball.position[0].tolist()
+        step = self.connection.config.time_step
+        self.connection.officials.reported.advance((x, y), step)
+        return times
+
+    def read(self, out: Floats) -> Doubles | None:
+        """Write the present state, once all robots that are driven are in sight; see `Reader.read`.
+
+        Raises:
+            ConnectionError: something is out of sight for `Settings.patience`.
+            RuntimeError: the simulator refuses all commands, or the guard has ended.
+        """
+        self.connection.begin()
+        times = self._completed.read(self._rows.rows)
+        self._finish(out)
+        return times
+
+    def begin_senses(
+        self, worlds: Mask, keys: NDArray[np.uint64], numbers: Floats | None = None
+    ) -> None:
+        """Begin to sense; see `SensingStepper.begin_senses`.
+
+        Raises:
+            ValueError: numbers of senses, which are what they are.
+        """
+        if numbers is not None:
+            raise ValueError("randomization: expected no numbers of senses of robots on a network")
+
+    def sense(self, out: Floats, active: Mask | None = None, known: str | None = "blue") -> None:
+        """Write what the robots know; see `SensingStepper.sense`."""
+        out[:] = self._rows.rows
+        if not self._forecasters or known is None:
+            return
+        sensing = self.connection.config.sensing
+        shares = sensing is not None and sensing.forecast_others >= 0.5
+        seen = np.array([self.connection.sight.clock.now])
+        forecaster = self._forecasters["all" if shares else known]
+        forecaster.forecast(self._rows.rows, seen, np.array([self.connection.now]), out)
+
+    def close(self) -> None:
+        """Stop the robots, and close a connection of its own."""
+        if self._is_owner:
+            self.connection.close()
+        else:
+            self.connection.stop()
+
+    def _finish(self, out: Floats) -> None:
+        """Write rows with break beams as robots report them."""
+        known, contact = self.connection.contact()
+        self._rows.robots.infrared[0, known] = contact[known]
+        self.connection.frame.rows[:] = self._rows.rows
+        out[:] = self._rows.rows
+
+
+class UntouchedNetwork(NetworkStepper, Placer):
+    """Robots on a network whose play goes on as it is when a task wants bodies somewhere else."""
+
+    def place(
+        self, worlds: Mask, rows: Floats, out: Floats, parameters: Floats | None = None
+    ) -> Doubles | None:
+        """Begin with the state as it is; see `Placer.place`.
+
+        Raises:
+            ValueError: factors on the numbers of models.
+        """
+        _check_parameters(parameters)
+        return self.read(out)
+
+    def restart(self, worlds: Mask, rows: Floats, out: Floats) -> Doubles | None:
+        """Go on with the state as it is; see `Placer.restart`."""
+        return self.read(out)
+
+    def reposition_balls(self, worlds: Mask, balls: Floats, out: Floats) -> Doubles | None:
+        """Go on with the state as it is; see `Placer.reposition_balls`."""
+        return self.read(out)
+
+
+class NetworkSimulator(NetworkStepper, Placer):
+    """A simulator on a network, which puts bodies where tasks want them."""
+
+    def place(
+        self, worlds: Mask, rows: Floats, out: Floats, parameters: Floats | None = None
+    ) -> Doubles | None:
+        """Put all bodies; see `Placer.place`.
+
+        Raises:
+            ConnectionError: vision does not show them there within `Settings.patience`.
+            RuntimeError: the simulator refuses all commands, or the guard has ended.
+            ValueError: factors on the numbers of models, which only its own settings change.
+        """
+        _check_parameters(parameters)
+        return self._put(rows, out, ball_only=False)
+
+    def restart(self, worlds: Mask, rows: Floats, out: Floats) -> Doubles | None:
+        """Put all bodies of a running match; see `Placer.restart`.
+
+        Raises:
+            ConnectionError: vision does not show them there within `Settings.patience`.
+            RuntimeError: the simulator refuses all commands, or the guard has ended.
+        """
+        return self._put(rows, out, ball_only=False)
+
+    def reposition_balls(self, worlds: Mask, balls: Floats, out: Floats) -> Doubles | None:
+        """Put the ball; see `Placer.reposition_balls`.
+
+        Raises:
+            ConnectionError: vision does not show it there within `Settings.patience`.
+            RuntimeError: the simulator refuses all commands, or the guard has ended.
+        """
+        rows = self._rows.rows.copy()
+        rows[:, :_BALL_SIZE] = balls
+        return self._put(rows, out, ball_only=True)
+
+    def _put(self, rows: Floats, out: Floats, *, ball_only: bool) -> Doubles | None:
+        connection, present = self.connection, self._rows.copy()
+        wanted = Frame(np.array(rows, np.float32), present.n_blue, present.n_yellow)
+        self._let_pass(1)
+        messages = connection.placement(wanted, ball_only=ball_only)
+        sight = connection.sight
+        state = {"seen": -1}
+
+        def is_placed() -> bool:
+            """Put bodies, again if need be, and look once they must be there."""
+            passed = sight.frames - state["seen"]
+            if state["seen"] < 0 or passed > FRAMES_TO_SHOW:
+                connection.put(messages)
+                state["seen"] = sight.frames
+                return False
+            if passed == FRAMES_TO_ACT:
+                connection.forget()
+            if passed <= FRAMES_TO_ACT:
+                return False
+            sight.read(present.rows)
+            return _is_there(present, wanted, ball_only=ball_only)
+
+        connection.stand(is_placed, "bodies where they were put")
+        connection.forget()
+        self._let_pass(2)
+        return self.read(out)
+
+    def _let_pass(self, frames: int) -> None:
+        """Let robots stand for some frames."""
+        sight = self.connection.sight
+        until = sight.frames + frames
+        self.connection.stand(lambda: sight.frames >= until, "frames")
+
+
+def _is_there(present: Frame, wanted: Frame, *, ball_only: bool) -> bool:
+    """Whether bodies are where they were put, as far as they stay there."""
+    moves = np.hypot(*wanted.ball.velocity[0]) > RESTING or wanted.ball.height[0] > PLACED
+    ball = np.hypot(*(present.ball.position[0] - wanted.ball.position[0]))
+    if not moves and ball > PLACED:
+        return False
+    if ball_only:
+        return True
+    expected = wanted.robots.absent[0] == 0
+    there = present.robots.absent[0] == 0
+    away = np.linalg.norm(present.robots.position[0] - wanted.robots.position[0], axis=1)
+    return bool((there[expected] & (away[expected] <= PLACED)).all())
+
+
+def _check_parameters(parameters: Floats | None) -> None:
+    if parameters is not None:
+        raise ValueError(
+            "randomization: expected no factors on the numbers of robots on a network, got some"
+        )

@@ -1,0 +1,122 @@
+"""Sight by messages that have positions and velocities: those of trackers and of FIRASim."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Final
+
+from rsoccer._core import ROBOT_COLUMNS
+from rsoccer.arrays import Floats
+from rsoccer.drive.peers import Identity
+from rsoccer.drive.sight import DetectionSight, Sight
+from rsoccer.frame import Frame
+from rsoccer.game import BLUE, YELLOW
+from rsoccer.protocols import fira, tracker
+from rsoccer.protocols.errors import Code, MessageError
+from rsoccer.protocols.layout import TEAMS, WireLayout
+from rsoccer.protocols.parsing import parse
+from rsoccer.protocols.schemas import fira_pb2, tracker_pb2
+from rsoccer.protocols.tracked import Tracked
+
+_ABSENT: Final = ROBOT_COLUMNS.index("absent")
+
+
+class StateSight(Sight):
+    """Messages with positions and velocities."""
+
+    def __init__(self, layout: WireLayout) -> None:
+        """Begin before the first frame.
+
+        Args:
+            layout: sides and numbers on the wire.
+        """
+        super().__init__(layout)
+        self._frame = self._nothing()
+
+    def _nothing(self) -> Frame:
+        return Tracked.begin(self.layout, None, 0.0).frame
+
+    def _keep(self, tracked: Tracked, identities: Iterable[Identity], time: float) -> None:
+        self._frame = tracked.frame
+        self.has_ball |= tracked.ball
+        self._note(identities, time)
+
+    def read(self, out: Floats) -> None:
+        """Write the newest state; see `Sight.read`."""
+        out[:] = self._frame.rows
+        lost = ~self.in_sight
+        robots = Frame(out, self._frame.n_blue, self._frame.n_yellow).robots.data
+        robots[0, lost] = 0.0
+        robots[0, lost, 2] = 1.0
+        robots[0, lost, _ABSENT] = 1.0
+
+    def turn(self, layout: WireLayout) -> None:
+        """Go on with other sides; see `Sight.turn`."""
+        self.layout, self.has_ball = layout, False
+        self._frame = self._nothing()
+
+
+class TrackerSight(StateSight):
+    """Frames of the tracker that is heard first."""
+
+    _source: str | None = None
+
+    def take(self, data: bytes) -> bool:
+        """Take in a packet of a tracker; see `Sight.take`."""
+        message = parse(tracker_pb2.Packet, data)
+        if not message.HasField("tracked_frame"):
+            return False
+        if self._source is None:
+            self._source = message.uuid
+        if message.uuid != self._source:
+            name = message.source_name or message.uuid
+            raise MessageError(Code.UNREADABLE, f"tracker: expected one source, got {name} too")
+        before, frame = self.clock.now, message.tracked_frame
+        found = self._time(frame.timestamp)
+        if found is None:
+            return False
+        colors = {tracker_pb2.TEAM_COLOR_BLUE: BLUE, tracker_pb2.TEAM_COLOR_YELLOW: YELLOW}
+        identities = [
+            (colors[robot.robot_id.team_color], robot.robot_id.id)
+            for robot in frame.robots
+            if robot.robot_id.team_color in colors
+        ]
+        self._keep(tracker.to_frame(self.layout, frame, self._frame), identities, found[0])
+        return found[0] > before or self.frames == 1
+
+
+class FiraSight(StateSight):
+    """FIRASim's environment."""
+
+    def take(self, data: bytes) -> bool:
+        """Take in a packet; see `Sight.take`."""
+        message = parse(fira_pb2.Environment, data)
+        if not message.HasField("frame"):
+            return False
+        if message.field.length > 0:
+            self.field_size = message.field.length, message.field.width
+        before = self.clock.now
+        found = self._time(message.step / fira.MILLISECONDS)
+        if found is None:
+            return False
+        groups = (message.frame.robots_blue, message.frame.robots_yellow)
+        identities = [
+            (team, robot.robot_id)
+            for team, group in zip(TEAMS, groups, strict=True)
+            for robot in group
+        ]
+        self._keep(fira.read_environment(self.layout, message, self._frame), identities, found[0])
+        return found[0] > before or self.frames == 1
+
+
+def make_sight(layout: WireLayout, league: str, source: str) -> Sight:
+    """Return what reads the frames of a connection.
+
+    Args:
+        layout: the match.
+        league: "ssl" or "vsss".
+        source: "vision" or "tracker".
+    """
+    if league == "vsss":
+        return FiraSight(layout)
+    return DetectionSight(layout) if source == "vision" else TrackerSight(layout)

@@ -1,0 +1,135 @@
+"""Entries of the leaderboard: what makes one invalid."""
+
+import json
+import re
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from rsoccer.benchmark import (
+    Entry,
+    EntryError,
+    is_current,
+    problems,
+    read_entry,
+    replayed,
+    run_benchmark,
+)
+
+TASK = "SSLGoToBall-v0"
+
+
+@cache
+def entry() -> Entry:
+    """Scores of a whole task; few lines take seconds, so all tests share them."""
+    return run_benchmark("fetch", [TASK], matches=200, threads=1, robust=False)
+
+
+def values() -> dict[str, Any]:
+    found: dict[str, Any] = json.loads(entry().to_json())
+    return found
+
+
+def test_a_measured_entry_is_valid_and_read_as_it_was_written(tmp_path: Path) -> None:
+    path = entry().save(tmp_path / "entry.json")
+    assert problems(values()) == []
+    assert read_entry(path) == entry()
+    assert is_current(entry())
+    assert not is_current(replace(entry(), versions={"package": "0", "physics": 1}))
+
+
+def changed(change: Callable[[dict[str, Any]], object]) -> list[str]:
+    found = values()
+    change(found)
+    return problems(found)
+
+
+def row(**numbers: object) -> Callable[[dict[str, Any]], object]:
+    return lambda found: found["tasks"][TASK][0].update(numbers)
+
+
+@pytest.mark.parametrize(
+    ("change", "problem"),
+    [
+        (lambda v: v.update(format=2), "format: expected 1, got 2"),
+        (lambda v: v.pop("machine"), "machine: missing"),
+        (lambda v: v.update(extra=1), "extra: unknown"),
+        (lambda v: v.update(robust="yes"), "robust: expected bool, got 'yes'"),
+        (lambda v: v.update(name=" "), "name: expected a text"),
+        (lambda v: v.update(seed=7), "seed: expected 31, got 7"),
+        (lambda v: v.update(matches=100), "matches: expected at least 200, got 100"),
+        (lambda v: v["versions"].update(physics=999), "versions.physics: expected 1 to"),
+        (lambda v: v["machine"].pop("cores"), "machine.cores: missing"),
+        (lambda v: v["tasks"].update({"Chess-v0": []}), "tasks: expected some of .*Chess-v0"),
+        (lambda v: v["tasks"].clear(), "tasks: expected rows of at least one task"),
+        (lambda v: v["refused"].update({TASK: "no"}), "expected rows or a reason, got both"),
+        (lambda v: v["tasks"][TASK].clear(), r"expected each opponent .* missing \[\('-', 'truth'"),
+        (
+            lambda v: v["tasks"][TASK].append(v["tasks"][TASK][0]),
+            "opponent and condition once",
+        ),
+        (lambda v: v.update(robust=True), r"missing .*'rc2021'"),
+        (lambda v: v["tasks"].update({TASK: {}}), "expected a list of rows, got dict"),
+        (row(score="1"), "row 0: score: expected float, got '1'"),
+        (row(metric="goal_score"), "metric: expected 'reached', got 'goal_score'"),
+        (row(matches=400), "matches: expected 200, got 400"),
+        (row(wins=1), "wins, draws, losses: expected 200 in all"),
+        (row(low=2.0), "score: expected low <= score <= high"),
+        (row(score=float("nan")), "score: expected finite numbers"),
+        (row(seconds=0.0), "seconds: expected a positive time"),
+        (row(wins=0, losses=200), "score: expected that of"),
+    ],
+)
+def test_a_changed_entry_is_invalid(
+    change: Callable[[dict[str, Any]], object], problem: str
+) -> None:
+    (found, *_) = changed(change)
+    assert re.search(problem, found)
+
+
+def test_a_goal_score_follows_from_the_counts() -> None:
+    found = values()
+    rows = [{**found["tasks"][TASK][0], "opponent": name} for name in ("ou", "zero", "strike")]
+    for each in rows:
+        each.update(metric="goal_score", wins=150, draws=0, losses=50, score=0.5, low=0.4, high=0.6)
+    found["tasks"] = {"SSLSelfPlay-v0": rows}
+    assert problems(found) == []
+    rows[1]["score"] = 0.6
+    (problem,) = problems(found)
+    assert "expected (wins - losses) / matches" in problem
+
+
+def test_a_partial_entry_may_lack_rows_but_have_no_others() -> None:
+    found = values()
+    found["robust"] = True
+    assert problems(found, partial=True) == []
+    found["tasks"][TASK].append(dict(found["tasks"][TASK][0]))
+    assert problems(found, partial=True)
+
+
+def test_files_that_hold_no_entry_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "entry.json"
+    path.write_text("{")
+    with pytest.raises(EntryError, match="expected JSON"):
+        read_entry(path)
+    path.write_text("[]")
+    with pytest.raises(EntryError, match="expected an object, got list"):
+        read_entry(path)
+
+
+def test_matches_that_are_played_again_reveal_other_scores() -> None:
+    assert replayed(entry(), TASK, threads=1) == []
+    (row,) = entry().tasks[TASK]
+    better = replace(row, wins=0, draws=200, score=0.0, low=0.0, high=0.0)
+    (found,) = replayed(replace(entry(), tasks={TASK: (better,)}), TASK, threads=1)
+    assert f"{TASK}, opponent -, condition truth: expected a score of 0.000 to 0.000" in found
+    with pytest.raises(ValueError, match=r"replay: expected one of \['SSLGoToBall-v0'\]"):
+        replayed(entry(), "VSS-v0")
+    with pytest.raises(ValueError, match=r"replay: expected physics"):
+        replayed(replace(entry(), versions={"package": "0", "physics": 1}), TASK)
+    with pytest.raises(ValueError, match=r"is not the file that was measured"):
+        replayed(replace(entry(), digest="0" * 64), TASK)

@@ -1,0 +1,47 @@
+"""`rsoccer benchmark`."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from rsoccer import cli
+
+TASK = ["--task", "SSLGoToBall-v0", "--threads", "1", "--no-robust"]
+
+
+def test_a_policy_is_measured_and_its_file_checked(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "entry.json"
+    options = [*TASK, "--out", str(path), "--name", "Mine", "--description", "A script."]
+    assert cli.main(["benchmark", "fetch", *options]) == 0
+    assert "Mine: 200 matches a row" in capsys.readouterr().out
+    first = json.loads(path.read_text())
+    assert (first["name"], first["description"]) == ("Mine", "A script.")
+    assert cli.main(["benchmark", "--check", str(path), "--replay", "SSLGoToBall-v0"]) == 0
+    assert "valid, 1 rows of 1 tasks" in capsys.readouterr().out
+    assert cli.main(["benchmark", "fetch", *options]) == 0
+    assert json.loads(path.read_text()) == first, "no row was played again"
+    path.write_text(path.read_text().replace('"wins": 200', '"wins": 199'))
+    assert cli.main(["benchmark", "--check", str(path)]) == 2
+    assert "expected 200 in all" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ([], "policy: expected a policy, or --check"),
+        (["fetch", "--check", "a.json"], "policy: expected a policy, or --check"),
+        (["fetch", "--replay", "VSS-v0"], "replay: expected --check with it"),
+        (["fetch", "--out", "entry.txt"], "out: expected a name ending in .json"),
+        (["match.rsr"], "expected a policy, got the replay"),
+        (["fetch", "--task", "VSS-v0"], "expected one that plays one of the tasks"),
+        (["--check", "missing.json"], "missing.json"),
+    ],
+)
+def test_wrong_words_are_refused(
+    words: list[str], message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert cli.main(["benchmark", *words]) == 2
+    assert message in capsys.readouterr().err

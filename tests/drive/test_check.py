@@ -1,0 +1,104 @@
+"""The check of sides, signs and delay."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+import pytest
+
+from rsoccer import Sensing, SimConfig
+from rsoccer.drive.check import Movement, check_robot, describe
+from rsoccer.drive.connection import Connection
+from rsoccer.drive.peers import Message
+from rsoccer.protocols.schemas import simulation_pb2
+from tests.drive.wires import ServerLink, connected
+
+SSL = SimConfig("ssl_b", 1, 0)
+
+
+def test_a_robot_that_obeys_is_right_and_its_delay_is_measured() -> None:
+    sensing = Sensing(delay=0.05, command_delay=0.03, frame_rate=60.0)
+    link = ServerLink(referee="off", sensing=sensing, blue_on_positive_half=True)
+    connection = connected(SSL, link, "ssl-simulation", ids=(5,), blue_on_positive_half=True)
+    found = check_robot(connection, 0)
+    assert found.is_right
+    assert found.delay == pytest.approx(0.08, abs=0.011)
+    assert found.gain == pytest.approx(1.0, abs=0.02)
+    text = describe(connection, found, 0)
+    assert "blue 5 is at (0.90, 1.50) m on the wire; its own goal is at +x there" in text
+    assert text.count("right") >= 6
+    assert f"use --delay {found.delay:g}" in text
+    # Only its team was commanded, and the robot is back and stands.
+    assert {message.port for message in link.messages} == {"blue"}
+    assert not link.frame.robots.velocity[0, 5].round(2).any()
+
+
+def test_a_side_that_is_wrong_shows_in_the_places() -> None:
+    link = ServerLink(referee="off", blue_on_positive_half=True)
+    connection = connected(SSL, link, "ssl-simulation", ids=(5,), blue_on_positive_half=False)
+    found = check_robot(connection, 0)
+    assert found.position == pytest.approx((0.9, 1.5), abs=0.01)  # in the half of the opponents
+
+
+class Reversed(ServerLink):
+    """Robots whose software has a sign wrong."""
+
+    def send(self, messages: Iterable[Message]) -> None:
+        turned = []
+        for message in messages:
+            control = simulation_pb2.RobotControl.FromString(message.data)
+            for each in control.robot_commands:
+                local = each.move_command.local_velocity
+                local.left, local.angular = -local.left, 0.3 * local.angular
+            turned.append(Message(message.port, control.SerializeToString()))
+        super().send(turned)
+
+
+def test_wrong_signs_and_units_are_named() -> None:
+    connection = connected(SSL, Reversed(referee="off"), "ssl-simulation", ids=(5,))
+    found = check_robot(connection, 0)
+    verdicts = {movement.name: movement.verdict for movement in found.movements}
+    assert verdicts["forward"] == verdicts["back"] == "right"
+    assert verdicts["left"].startswith("wrong: the opposite")
+    assert verdicts["turn"].startswith("wrong: 0.3")
+    assert not found.is_right
+    assert "do not let a policy drive" in describe(connection, found, 0)
+
+
+def test_the_delay_of_a_robot_that_stands_is_not_measured() -> None:
+    link = ServerLink(referee="off")
+    connection = connected(SSL, link, "ssl-simulation", ids=(5,))
+    link.server.session.teams[0].hold = lambda *_, **__: None  # type: ignore[method-assign]
+    found = check_robot(connection, 0)
+    assert found.delay is None
+    assert {movement.verdict for movement in found.movements} == {"wrong: it does not move"}
+    assert "delay: not measured" in describe(connection, found, 0)
+
+
+@pytest.mark.parametrize(
+    ("asked", "seen", "words"),
+    [
+        ((0.24, 0.0, 0.0), (0.0, 0.24, 0.0), "across"),
+        ((0.0, 0.24, 0.0), (-0.24, 0.0, 0.0), "across"),
+        ((0.0, 0.0, 1.2), (0.0, 0.0, -1.2), "the opposite"),
+        ((0.24, 0.0, 0.0), (0.48, 0.0, 0.0), "2.00 of the way"),
+        ((-0.24, 0.0, 0.0), (-0.2, 0.02, 0.1), "right"),
+    ],
+)
+def test_verdicts(
+    asked: tuple[float, float, float], seen: tuple[float, float, float], words: str
+) -> None:
+    assert words in Movement("forward", asked, seen).verdict
+
+
+def test_a_robot_needs_space_and_must_be_driven() -> None:
+    link = ServerLink(league="vsss", referee="off")
+    connection: Connection = connected(SimConfig("vss_3v3", 3, 3), link, "firasim")
+    with pytest.raises(
+        ValueError, match=r"check: expected 0\.40 m of free field .*, got 0\.\d\d m"
+    ):
+        check_robot(connection, 1)
+    with pytest.raises(ValueError, match=r"check: expected one of \[0, 1, 2\], got 3"):
+        check_robot(connection, 3)
+    assert not np.abs(link.server.session.commands).any()

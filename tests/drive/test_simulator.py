@@ -1,0 +1,190 @@
+"""Matches on a network: our own server at the other end."""
+
+from __future__ import annotations
+
+import pickle
+
+import numpy as np
+import pytest
+
+from rsoccer import Matches, Sensing, SimConfig, plugins
+from rsoccer._core import Threads
+from rsoccer.drive import (
+    Network,
+    NetworkSimulator,
+    NetworkStepper,
+    Settings,
+    UntouchedNetwork,
+    forecasting,
+)
+from rsoccer.evaluate import evaluate
+from rsoccer.lineup import lineup
+from rsoccer.protocols.schemas import simulation_pb2
+from rsoccer.registry import make_task
+from rsoccer.simulator_interface import Stepper
+from rsoccer.sources import NETWORK_SIMULATORS
+from tests.drive.wires import ServerLink, connected
+
+GO_TO_BALL = "SSLGoToBall-v0"
+
+
+def matches_of(
+    task: str,
+    link: ServerLink,
+    peer: str,
+    kind: type[NetworkStepper] = NetworkSimulator,
+    delay: float = 0.0,
+    **settings: object,
+) -> Matches:
+    made = make_task(task)
+
+    def simulator(config: SimConfig, worlds: int, threads: Threads) -> Stepper:
+        return kind(connected(config, link, peer, **settings))
+
+    opponent = "zero" if made.config.n_yellow else None
+    return Matches(
+        made,
+        controllers=lineup(made, "best", opponent),
+        simulator=simulator,
+        sensing=forecasting(delay),
+    )
+
+
+def played(matches: Matches, steps: int) -> list[dict[str, float]]:
+    """Metrics of the episodes that end in some steps."""
+    matches.reset(seed=0)
+    actions = np.zeros((1, 0, matches.action_size), np.float32)
+    found = []
+    for _ in range(steps):
+        outcome = matches.step(actions)
+        if outcome.episodes is not None:
+            metrics = outcome.episodes.metrics
+            found.append({name: float(values[0]) for name, values in metrics.items()})
+    matches.close()
+    return found
+
+
+@pytest.mark.parametrize(
+    ("peer", "settings"),
+    [
+        ("ssl-simulation", {}),
+        ("ssl-simulation", {"team": "yellow"}),
+        ("ssl-simulation", {"source": "tracker", "ids": (4,)}),
+        ("grsim", {}),
+    ],
+)
+def test_the_ball_is_reached(peer: str, settings: dict[str, object]) -> None:
+    link = ServerLink(referee="off")
+    found = played(matches_of(GO_TO_BALL, link, peer, **settings), 110)
+    assert len(found) >= 2
+    assert all(metrics["reached"] == 1.0 for metrics in found)
+    assert link.is_closed
+
+
+def test_the_ball_is_reached_through_noise_and_delay() -> None:
+    link = ServerLink(referee="off", sensing=Sensing("rc2021"))
+    found = played(matches_of(GO_TO_BALL, link, "ssl-simulation", delay=0.06), 110)
+    assert [metrics["reached"] for metrics in found[:2]] == [1.0, 1.0]
+
+
+def test_the_ball_is_reached_in_a_simulator_that_waits() -> None:
+    link = ServerLink(referee="off", speed=None, yellow="zero")
+    found = played(matches_of(GO_TO_BALL, link, "ssl-simulation", is_synchronous=True), 110)
+    assert [metrics["reached"] for metrics in found[:2]] == [1.0, 1.0]
+    assert link.server.session.counts["frames: sent again"] == 0
+
+
+def test_a_goal_is_scored_in_vsss() -> None:
+    link = ServerLink(league="vsss", referee="off")
+    found = played(matches_of("VSSSelfPlay-v0", link, "firasim", drives=(0, 1)), 150)
+    assert found
+    assert found[0]["goal_score"] == 1.0
+
+
+def test_bodies_are_where_a_task_wants_them_and_others_are_gone() -> None:
+    link = ServerLink(referee="off")
+    matches = matches_of(GO_TO_BALL, link, "ssl-simulation")
+    here = Matches(GO_TO_BALL)
+    here.reset(seed=3)
+    matches.reset(seed=3)
+    wanted, true = here.frame, link.frame
+    np.testing.assert_allclose(true.robots.position[0, 0], wanted.robots.position[0, 0], atol=0.01)
+    assert true.robots.absent[0].tolist() == [0.0] + [1.0] * 11
+    np.testing.assert_allclose(
+        matches.frame.robots.position[0, 0], true.robots.position[0, 0], atol=0.01
+    )
+    assert matches.play.times is not None
+
+
+def test_untouched_robots_stay() -> None:
+    link = ServerLink(referee="off")
+    before = link.frame.robots.position[0].copy()
+    matches_of(GO_TO_BALL, link, "ssl-simulation", UntouchedNetwork).reset()
+    np.testing.assert_allclose(link.frame.robots.position[0], before, atol=0.01)
+    stepper = matches_of(GO_TO_BALL, ServerLink(referee="off"), "ssl-simulation", NetworkStepper)
+    stepper.reset()
+    with pytest.raises(ValueError, match="cannot place bodies"):
+        stepper.reset(rows=np.zeros((1, stepper.task.config.row_size), np.float32))
+
+
+def test_what_cannot_be_changed_is_refused() -> None:
+    link = ServerLink(referee="off")
+    stepper = NetworkSimulator(connected(SimConfig("ssl_b", 1, 0), link, "ssl-simulation"))
+    row = np.zeros((1, stepper.connection.config.row_size), np.float32)
+    with pytest.raises(ValueError, match="randomization: expected no factors"):
+        stepper.place(np.ones(1, np.bool_), row, row, np.ones((1, 3), np.float32))
+    with pytest.raises(ValueError, match="randomization: expected no numbers"):
+        stepper.begin_senses(np.ones(1, np.bool_), np.zeros(1, np.uint64), row)
+
+
+def test_one_match_at_a_time() -> None:
+    with pytest.raises(ValueError, match="worlds: expected 1 with a simulator on a network, got 2"):
+        Matches(GO_TO_BALL, 2, simulator="grsim")
+
+
+def test_a_network_is_copied_without_its_connection() -> None:
+    network = Network(Settings("grsim"), UntouchedNetwork, (0,))
+    copy = pickle.loads(pickle.dumps(network))
+    assert (copy.settings, copy.kind, copy.drives) == (network.settings, UntouchedNetwork, (0,))
+    network.close()
+
+
+def test_the_forecast_is_the_state_after_the_delay() -> None:
+    config = SimConfig("ssl_b", 1, 0).with_sensing(forecasting(0.1))
+    stepper = UntouchedNetwork(connected(config, ServerLink(referee="off"), "ssl-simulation"))
+    out, known = np.empty((2, 1, config.row_size), np.float32)
+    stepper.read(out)
+    commands = np.zeros((1, 1, len(config.command_columns)), np.float32)
+    commands[..., 0] = 1.0
+    for _ in range(40):
+        stepper.step(commands, out)
+    stepper.sense(known, None, "blue")
+    assert known[0, 17] - out[0, 17] == pytest.approx(0.1, abs=0.02)
+    stepper.sense(known, None, None)
+    np.testing.assert_array_equal(known, out)
+    assert forecasting(0.0) is None
+
+
+def test_a_policy_is_evaluated_there() -> None:
+    link, made = ServerLink(referee="off"), []
+
+    def simulator(config: SimConfig, worlds: int, threads: Threads) -> NetworkSimulator:
+        if not made:
+            made.append(connected(config, link, "ssl-simulation", drives=(0, 1)))
+        return NetworkSimulator(made[0], is_owner=False)
+
+    found = evaluate(
+        "best", matches=2, task=make_task(GO_TO_BALL), worlds=1, threads=1, simulator=simulator
+    )
+    assert found.score == 1.0
+    assert not link.is_closed
+    last = simulation_pb2.RobotControl.FromString(link.messages[-1].data)
+    assert not any(each.move_command.local_velocity.forward for each in last.robot_commands)
+
+
+@pytest.mark.parametrize("name", sorted(NETWORK_SIMULATORS))
+def test_peers_have_names(name: str) -> None:
+    found = plugins.find("simulator", NETWORK_SIMULATORS[name])
+    assert isinstance(found, Network)
+    assert found.settings == Settings(name)
+    assert isinstance(pickle.loads(pickle.dumps(found)), Network)

@@ -1,0 +1,88 @@
+"""The tracker of the senses, for detections of other cameras."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from rsoccer import SimConfig
+from rsoccer._core import ROBOT_COLUMNS, VisionTracker
+from rsoccer.frame import Frame
+
+CONFIG = SimConfig("ssl_b", 1, 1)
+NOBODY = np.zeros((0, 5), np.float32)
+NO_BALL = np.zeros((0, 2), np.float32)
+
+
+def read(tracker: VisionTracker) -> Frame:
+    row = np.full((1, CONFIG.row_size), np.nan, np.float32)
+    tracker.read(row)
+    assert np.isfinite(row).all()
+    return Frame(row, 1, 1)
+
+
+def seen(slot: int, x: float, angle: float = 0.0) -> np.ndarray:
+    return np.array([[slot, x, 0.5, np.cos(angle), np.sin(angle)]], np.float32)
+
+
+def test_velocities_of_noisy_detections_are_estimated() -> None:
+    rng = np.random.default_rng(0)
+    tracker = VisionTracker(CONFIG)
+    for frame in range(120):
+        time = frame / 60
+        ball = np.array([[0.5 * time, -time]]) + rng.normal(0.0, 0.0005, (1, 2))
+        assert tracker.take(time, ball.astype(np.float32), seen(1, time, 2.0 * time))
+    frame = read(tracker)
+    np.testing.assert_allclose(frame.ball.velocity[0], [0.5, -1.0], atol=0.1)
+    np.testing.assert_allclose(frame.robots.velocity[0, 1], [1.0, 0.0], atol=0.05)
+    assert frame.robots.angular_velocity[0, 1] == pytest.approx(2.0, abs=0.1)
+    assert frame.robots.absent[0].tolist() == [1.0, 0.0]
+    assert tracker.robots_in_sight == [1]
+    assert tracker.has_ball
+    assert tracker.time == pytest.approx(119 / 60)
+    assert repr(tracker).startswith("VisionTracker(2 robots, time=1.98")
+
+
+def test_a_ghost_far_from_the_ball_is_ignored() -> None:
+    tracker = VisionTracker(CONFIG)
+    for frame in range(60):
+        ghost = [[3.0, 2.0]] if frame % 10 == 5 else []
+        balls = np.array([*ghost, [0.1, 0.2]], np.float32)
+        tracker.take(frame / 60, balls, NOBODY)
+    np.testing.assert_allclose(read(tracker).ball.position[0], [0.1, 0.2], atol=1e-4)
+
+
+def test_a_frame_of_the_past_is_refused() -> None:
+    tracker = VisionTracker(CONFIG)
+    assert tracker.take(1.0, NO_BALL, seen(0, 0.3))
+    assert not tracker.take(0.9, NO_BALL, seen(0, 0.9))
+    assert read(tracker).robots.position[0, 0, 0] == pytest.approx(0.3)
+    assert not tracker.has_ball
+
+
+@pytest.mark.parametrize(
+    ("time", "balls", "robots", "message"),
+    [
+        (np.nan, NO_BALL, NOBODY, "time must be finite"),
+        (0.0, np.full((1, 2), np.inf, np.float32), NOBODY, "balls must be finite"),
+        (0.0, np.zeros((1, 3), np.float32), NOBODY, "balls must have shape"),
+        (0.0, NO_BALL, np.zeros(5, np.float32), "robots must have 2 axes"),
+        (0.0, NO_BALL, seen(2, 0.0), "indices from 0 to 1, got 2"),
+        (0.0, NO_BALL, seen(0, 0.0) * np.array([1, 1, 1, 0, 0], np.float32), "length above 0"),
+    ],
+)
+def test_wrong_detections_are_refused(
+    time: float, balls: np.ndarray, robots: np.ndarray, message: str
+) -> None:
+    tracker = VisionTracker(CONFIG)
+    with pytest.raises(ValueError, match=message):
+        tracker.take(time, balls, robots)
+    assert tracker.time is None
+
+
+def test_arrays_of_other_types_are_refused() -> None:
+    tracker = VisionTracker(CONFIG)
+    with pytest.raises(TypeError, match="balls must be an array of float32"):
+        tracker.take(0.0, np.zeros((1, 2)), NOBODY)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="out must have shape"):
+        tracker.read(np.zeros((1, len(ROBOT_COLUMNS)), np.float32))

@@ -1,0 +1,57 @@
+"""The page of the playground without its module: `make check-wasm` tests it with one."""
+
+import base64
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+import rsoccer
+from rsoccer.policies.trained import FOLDER
+from tools.playground.page import LEAGUES, SCRIPTS, WEB, data, to_html, web_part
+from tools.site import playground
+
+
+def test_a_page_needs_no_other_file() -> None:
+    page = to_html("bW9kdWxl")
+    assert "{{" not in page.replace("{{{", "")
+    assert not re.search(r'(?:src|href)="(?!data:)', page)
+    assert page.count("<script") == 3
+    assert ">bW9kdWxl</script>" in page
+    assert len(page) < 1_000_000  # the module may have two thirds of 3 MB
+
+
+def test_all_scripts_of_the_folder_are_on_the_page() -> None:
+    assert sorted(SCRIPTS) == sorted(path.name for path in WEB.glob("*.js"))
+    page = to_html("")
+    assert all(web_part(name) in page for name in SCRIPTS)
+
+
+def test_choices_have_scenes_and_policies_of_the_package() -> None:
+    values = json.loads(json.dumps(data()))
+    assert len(values["leagues"]) == len(LEAGUES) >= 4
+    for league, given in zip(LEAGUES, values["leagues"], strict=True):
+        assert values["scenes"][league.field]["bounds"]
+        assert values["areas"][league.field]
+        assert league.task in rsoccer.list_tasks()
+        assert given["scripted"] is league.field.startswith("ssl")
+        for policy, shown in zip(league.policies, given["policies"], strict=True):
+            assert base64.b64decode(shown["file"]) == (FOLDER / policy.file).read_bytes()
+    assert sum(len(league.policies) for league in LEAGUES) >= 3
+
+
+def test_the_site_shows_the_playground_where_it_was_built(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = f"# Title\n\n{playground.MARK}\n"
+    assert "make playground" in playground.shown(text, built=False)
+    assert f'src="{playground.PLACE}"' in playground.shown(text, built=True)
+    docs = Path(__file__).parents[2] / "docs" / "playground.md"
+    assert docs.read_text().count(playground.MARK) == 1
+    monkeypatch.setattr(playground, "PAGE", tmp_path / "none.html")
+    playground.copy(tmp_path)
+    assert not (tmp_path / playground.PLACE).exists()
+    (tmp_path / "none.html").write_text("page")
+    playground.copy(tmp_path)
+    assert (tmp_path / playground.PLACE).read_text() == "page"

@@ -1,0 +1,141 @@
+"""The playground in a headless Chromium, and the golden hashes there."""
+
+import base64
+import gzip
+import json
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from rsoccer.policies.trained import FOLDER
+from tests.replay.browser import Shown, show
+from tests.wasm.engine import MODULE
+from tests.wasm.test_bits import GOLDEN
+from tools.playground.page import LEAGUES, to_html
+
+LARGEST = 3e6
+"""Bytes of the page with policies."""
+READY = "<script>window.rsoccerPlayer = window.rsoccerPlayground;</script></body>"
+
+
+@cache
+def page() -> str:
+    """The page of the module."""
+    packed = base64.b64encode(gzip.compress(MODULE.read_bytes(), 9, mtime=0)).decode()
+    return to_html(packed)
+
+
+def shown(script: str, folder: Path, **size: int) -> Any:  # noqa: ANN401  (any JSON)
+    """What a script returns that has the playground as `player`; the console stays empty."""
+    result: Shown = show(page().replace("</body>", READY), script, folder, **size)
+    assert result.console == []
+    return result.result
+
+
+def test_the_page_is_small() -> None:
+    assert 5e5 < len(page().encode()) < LARGEST
+
+
+def test_golden_hashes_in_a_browser_are_those_of_native_code(tmp_path: Path) -> None:
+    hashes = shown("return player.engine.golden();", tmp_path)
+    assert sorted(hashes) == sorted(GOLDEN.read_text().splitlines()[1:])
+
+
+def test_each_league_plays_with_each_side(tmp_path: Path) -> None:
+    played = shown(
+        """
+        const played = [];
+        const select = (id, value) => {
+          const element = document.getElementById(id);
+          element.value = value;
+          element.dispatchEvent(new Event("change"));
+        };
+        for (const league of player.data.leagues) {
+          select("league", league.id);
+          const { options } = document.getElementById("side-0");
+          const sides = [...options].map((option) => option.value);
+          for (const side of sides) {
+            select("side-0", side);
+            for (let step = 0; step < 400; step++) player.step();
+            const message = document.getElementById("message");
+            const text = message.hidden ? "" : message.textContent;
+            played.push([league.id, side, player.told.steps, text]);
+          }
+        }
+        return played;
+        """,
+        tmp_path,
+    )
+    wanted = {
+        (league.id, side)
+        for league in LEAGUES
+        for side in (
+            *(["scripted"] if league.field.startswith("ssl") else []),
+            *(policy.id for policy in league.policies),
+            "idle",
+        )
+    }
+    assert {(league, side) for league, side, _, _ in played} == wanted
+    assert all(steps >= 400 and not text for _, _, steps, text in played)
+
+
+@pytest.mark.parametrize(("width", "height"), [(1280, 900), (420, 860)])
+def test_a_person_plays_and_pulls_the_ball(tmp_path: Path, width: int, height: int) -> None:
+    result = shown(
+        """
+        const press = (key) => window.dispatchEvent(new KeyboardEvent("keydown", {key}));
+        document.getElementById("side-0").value = "idle";
+        document.getElementById("side-0").dispatchEvent(new Event("change"));
+        for (let step = 0; step < 120; step++) player.step();
+        const before = [...player.live.newest];
+        press("d");
+        for (let step = 0; step < 40; step++) player.step();
+        const robot = player.driven;
+        const at = player.live.ballSize + robot * player.live.robotSize;
+        const moved = player.live.newest[at] - before[at];
+        const pull = player.match.move(0, 1, 0.5);
+        const ball = [...player.match.row("state")].slice(0, 2);
+        player.panel.set({ delay: 100, rolling: 2 });
+        player.changeConditions();
+        for (let step = 0; step < 20; step++) player.step();
+        await wait(300);
+        const wide = document.documentElement.scrollWidth <= window.innerWidth;
+        return { robot, moved, pull, ball, wide, sensed: player.live.sensedNumbers !== null };
+        """,
+        tmp_path,
+        width=width,
+        height=height,
+    )
+    assert 0 <= result["robot"] < LEAGUES[0].robots
+    assert result["moved"] > 0.3
+    assert result["pull"]
+    assert result["ball"] == pytest.approx([1.0, 0.5], abs=1e-6)
+    assert result["sensed"]
+    assert result["wide"]
+
+
+def test_a_dropped_policy_plays_and_a_wrong_one_is_refused(tmp_path: Path) -> None:
+    file = base64.b64encode((FOLDER / "VSSSelfPlay-v0.safetensors").read_bytes()).decode()
+    result = shown(
+        f"""
+        const bytes = Uint8Array.from(atob({json.dumps(file)}), (letter) => letter.charCodeAt(0));
+        const message = () => document.getElementById("message");
+        player.addPolicy("mine", bytes);
+        const refused = [message().textContent, player.choices.sides[0]];
+        document.getElementById("league").value = "vss";
+        document.getElementById("league").dispatchEvent(new Event("change"));
+        player.addPolicy("mine", bytes);
+        for (let step = 0; step < 100; step++) player.step();
+        const replay = await player.replayFile();
+        const side = player.choices.sides[0], hidden = message().hidden;
+        return {{ refused, side, hidden, size: replay.length }};
+        """,
+        tmp_path,
+    )
+    assert "VSSSelfPlay-v0" in result["refused"][0]
+    assert result["refused"][1] == "scripted"
+    assert result["side"] == "file:mine"
+    assert result["hidden"]
+    assert result["size"] > 1000

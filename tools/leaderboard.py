@@ -1,0 +1,190 @@
+"""Tables of the leaderboard, from the files in `benchmarks/`.
+
+`python -m tools.leaderboard` checks all files and prints what is wrong with them.
+"""
+
+import json
+import sys
+from pathlib import Path
+from typing import Final
+
+from benches.markdown import table
+from benches.result_files import RESULTS
+from rsoccer.benchmark import (
+    CONDITIONS,
+    TASKS,
+    Entry,
+    EntryError,
+    Row,
+    is_current,
+    opponents_of,
+    read_entry,
+)
+from rsoccer.benchmark.conditions import TRUTH
+from tools.paths import ROOT
+
+FOLDER: Final = ROOT / "benchmarks"
+QUOTED: Final = "quoted.json"
+"""File with results of others, which were not measured here."""
+CALIBRATION: Final = {"DDPG": "VSS-v0-ddpg", "SAC": "VSS-v0-sac"}
+"""Runs of the study of learning in the setting of the paper, by algorithm."""
+SHOWN: Final = ("rc2021", "realistic", "commands-100ms")
+"""Conditions that have columns of their own."""
+STALE: Final = "\\*"
+
+
+def main() -> int:
+    """Check every file.
+
+    Returns:
+        1 if a file is invalid.
+    """
+    failed = False
+    for path in files():
+        try:
+            read_entry(path)
+        except EntryError as error:
+            failed = True
+            print(error)
+    return int(failed)
+
+
+def files(folder: Path = FOLDER) -> list[Path]:
+    """Return the files of entries."""
+    return [path for path in sorted(folder.glob("*.json")) if path.name != QUOTED]
+
+
+def entries(folder: Path = FOLDER) -> list[Entry]:
+    """Return all entries.
+
+    Raises:
+        EntryError: A file is invalid.
+    """
+    return [read_entry(path) for path in files(folder)]
+
+
+def plain(found: list[Entry] | None = None) -> str:
+    """Return a table for each task: the scores of all entries on the true state, best first."""
+    found = entries() if found is None else found
+    return "\n\n".join(
+        text for task in TASKS if (text := _plain(task, [e for e in found if task in e.tasks]))
+    )
+
+
+def _plain(task: str, found: list[Entry]) -> str:
+    """Table of a task; empty without entries."""
+    if not found:
+        return ""
+    opponents = [name or "-" for name in opponents_of(task)]
+    scores = {entry.name: [_row(entry, task, name, TRUTH) for name in opponents] for entry in found}
+    ordered = sorted(found, key=lambda entry: -sum(row.score for row in scores[entry.name]))
+    metric = scores[ordered[0].name][0].metric.replace("_", " ")
+    against = [f"against `{name}`" if name != "-" else metric for name in opponents]
+    rows = [
+        (f"{_name(entry)}", *map(_score, scores[entry.name]), str(entry.matches))
+        for entry in ordered
+    ]
+    title = f"### {task}\n\nMeasure: {metric}.\n\n"
+    return title + table(("policy", *against, "matches a row"), rows)
+
+
+def robust(found: list[Entry] | None = None) -> str:
+    """Return the table of the entries that were measured under all conditions."""
+    found = entries() if found is None else found
+    header = ("task", "policy", "true state", "mean of nine conditions", "worst condition")
+    rows = []
+    for task in TASKS:
+        measured = [entry for entry in found if entry.robust and task in entry.tasks]
+        rows += [_robust(task, entry) for entry in sorted(measured, key=lambda e: -_mean(e, task))]
+    return table((*header, *(CONDITIONS[name].text for name in SHOWN)), rows)
+
+
+def _robust(task: str, entry: Entry) -> tuple[str, ...]:
+    opponent = opponents_of(task)[0] or "-"
+    others = _under_conditions(entry, task)
+    worst = min(others, key=lambda row: row.score)
+    shown = [_score(_row(entry, task, opponent, name)) for name in SHOWN]
+    truth = _score(_row(entry, task, opponent, TRUTH))
+    text = f"{_score(worst)}: {CONDITIONS[worst.condition].text}"
+    return f"`{task}`", _name(entry), truth, _number(_mean(entry, task)), text, *shown
+
+
+def _under_conditions(entry: Entry, task: str) -> list[Row]:
+    return [row for row in entry.tasks[task] if row.condition != TRUTH]
+
+
+def _mean(entry: Entry, task: str) -> float:
+    """Mean of the scores under all conditions but the true state."""
+    rows = _under_conditions(entry, task)
+    return sum(row.score for row in rows) / len(rows)
+
+
+def provenance(found: list[Entry] | None = None) -> str:
+    """Return the table of what the entries are, and where and when they were measured."""
+    found = entries() if found is None else found
+    header = ("policy", "description", "date", "rsoccer, physics", "machine", "wall clock")
+    rows = [
+        (
+            f"[{_name(entry)}]({entry.link})" if entry.link else _name(entry),
+            entry.description,
+            entry.date,
+            f"{entry.versions['package']}, {entry.versions['physics']}",
+            f"{entry.machine['processor']}, {entry.machine['cores']} cores",
+            f"{sum(row.wall_clock for rows in entry.tasks.values() for row in rows) / 60:.0f} min",
+        )
+        for entry in sorted(found, key=lambda entry: entry.name)
+    ]
+    return table(header, rows)
+
+
+def quoted() -> str:
+    """Return the table of results that were not measured by this protocol, with their sources."""
+    values = json.loads((FOLDER / QUOTED).read_text())
+    keys = ("task", "learner", "samples", "result", "simulator", "source")
+    rows = [tuple(_quoted_cell(value, key) for key in keys) for value in values]
+    return table(("task", "learner", "samples", "result", "simulator", "source"), rows)
+
+
+def _quoted_cell(value: dict[str, str], key: str) -> str:
+    return f"`{value[key]}`" if key == "task" and value[key] in TASKS else value[key]
+
+
+def papers_algorithms() -> str:
+    """Return the table of the paper's algorithms in its setting, from the study of learning."""
+    rows = []
+    for algorithm, run in CALIBRATION.items():
+        path = RESULTS / "learning" / "runs" / "calibration" / run / "seed-0.json"
+        result = json.loads(path.read_text())
+        row = result["evaluations"][0]
+        interval = f"{_number(row['score'])} ({_number(row['low'])} to {_number(row['high'])})"
+        cells = (f"`{row['opponent']}`", interval, str(row["matches"]), str(result["physics"]))
+        rows.append((algorithm, f"`{result['task']}`", f"{result['samples'] / 1e6:.0f} M", *cells))
+    header = ("algorithm", "task", "samples", "against", "goal score", "matches", "physics")
+    return table(header, rows)
+
+
+def _row(entry: Entry, task: str, opponent: str, condition: str) -> Row:
+    """The row of an opponent under a condition."""
+    return next(
+        row for row in entry.tasks[task] if (row.opponent, row.condition) == (opponent, condition)
+    )
+
+
+def _name(entry: Entry) -> str:
+    """Name of an entry, marked if the physics is another one now."""
+    return f"`{entry.name}`{'' if is_current(entry) else STALE}"
+
+
+def _score(row: Row) -> str:
+    return f"{_number(row.score)} ({_number(row.low)} to {_number(row.high)})"
+
+
+def _number(value: float) -> str:
+    """Three digits, without the zero before the point."""
+    if abs(value) >= 1.0:
+        return f"{value:.2f}"
+    return f"{value:.3f}".replace("0.", ".", 1)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

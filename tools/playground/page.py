@@ -1,0 +1,156 @@
+"""The page of the playground: its parts and data."""
+
+import base64
+import html
+from functools import cache
+from pathlib import Path
+from typing import Any, Final, NamedTuple
+
+import rsoccer
+from rsoccer._core import COMMAND_COLUMNS, SimConfig
+from rsoccer.policies.trained import FOLDER
+from rsoccer.render.referee_floor import (
+    AREA_TINT,
+    EDGE,
+    FILL,
+    MAY_TOUCH,
+    TEAM_COLORS,
+    area_outlines,
+)
+from rsoccer.render.words import side_of
+from rsoccer.replay import page
+from rsoccer.replay.quantized import STEPS
+
+WEB: Final = Path(__file__).parent / "web"
+"""Parts of the page that are its own."""
+DRAWING: Final = ("ghosts.js", "field.js", "match.js", "match_floor.js")
+"""Scripts of the pages of replays that draw."""
+SCRIPTS: Final = (
+    *("engine.js", "live_rows.js", "words.js", "inputs.js", "recorder.js", "situations.js"),
+    *("conditions.js", "playground.js"),
+)
+"""Scripts of the playground, in their order."""
+HALF_SECONDS: Final = 300.0
+"""Playing time of a half, s: the default of `Setup` in `crates/rsim-match`."""
+
+
+class Policy(NamedTuple):
+    """A shipped policy that a league of the playground has."""
+
+    id: str
+    """value of the choice, and of links"""
+    name: str
+    """words of the choice"""
+    file: str
+    """name of its file in the package"""
+
+
+class League(NamedTuple):
+    """A choice of field and team size."""
+
+    id: str
+    """value of the choice, and of links"""
+    name: str
+    """words of the choice"""
+    field: str
+    """preset of the field"""
+    robots: int
+    """robots of each team"""
+    task: str
+    """task whose matches these are, for saved replays"""
+    policies: tuple[Policy, ...] = ()
+    """shipped policies with observations of such matches"""
+
+
+LEAGUES: Final = (
+    League("ssl_b", "SSL, 6 v 6 (division B)", "ssl_b", 6, "SSLMatch-v0"),
+    League("ssl_a", "SSL, 11 v 11 (division A)", "ssl_a", 11, "SSLMatch-v0"),
+    League(
+        *("ssl_3", "SSL, 3 v 3 on a small field", "ssl_challenge", 3, "SSLMatch-v0"),
+        (Policy("best", "best of SSLSelfPlay-v0", "SSLSelfPlay-v0.safetensors"),),
+    ),
+    League(
+        *("vss", "VSSS, 3 v 3", "vss_3v3", 3, "VSSMatch-v0"),
+        (
+            Policy("best", "best of VSSSelfPlay-v0", "VSSSelfPlay-v0.safetensors"),
+            Policy("multi", "best of VSSMulti-v0", "VSSMulti-v0.safetensors"),
+            Policy("robust", "best:robust of VSS-v0", "VSS-v0.robust.safetensors"),
+        ),
+    ),
+)
+"""Choices of the page, the first one is shown at first."""
+
+
+def to_html(module: str) -> str:
+    """Return the page.
+
+    Args:
+        module: the WebAssembly module, compressed by gzip, in base64.
+
+    Returns:
+        HTML that needs no other file.
+    """
+    scripts = [*map(page.web_part, DRAWING), *map(web_part, SCRIPTS)]
+    styles = [page.web_part("style.css"), page.web_part("match.css"), web_part("playground.css")]
+    about = f"rSoccer {rsoccer.__version__}: physics, referee and teams run in this page."
+    parts = {
+        "colors": page.color_variables(),
+        "style": "".join(styles),
+        "script": "\n".join(scripts),
+        "data": page.to_json(data()),
+        "module": module,
+        "about": html.escape(about),
+    }
+    return page.fill(web_part("page.html"), parts)
+
+
+def data() -> dict[str, Any]:
+    """Return all that the page shows and that the module does not know, as values for JSON."""
+    configs = {league.field: _config(league) for league in LEAGUES}
+    return {
+        "version": rsoccer.__version__,
+        "halfSeconds": HALF_SECONDS,
+        "leagues": [_league(league) for league in LEAGUES],
+        "scenes": {name: page.scene(config) for name, config in configs.items()},
+        "areas": {
+            name: [
+                [round(v, 4) for point in outline for v in point]
+                for outline in area_outlines(config.field)
+            ]
+            for name, config in configs.items()
+        },
+        "floor": {
+            "opacity": {"area": AREA_TINT, "fill": FILL, "edge": EDGE, "mayTouch": MAY_TOUCH},
+            "markColors": {side_of(team): color[:3] for team, color in TEAM_COLORS.items()},
+        },
+        "steps": STEPS,
+        "commandColumns": {name: COMMAND_COLUMNS[name] for name in ("differential", "omni")},
+    }
+
+
+@cache
+def web_part(name: str) -> str:
+    """Return the text of a part of the page.
+
+    Args:
+        name: name of a file in the folder `web`.
+    """
+    return (WEB / name).read_text(encoding="utf-8")
+
+
+def _config(league: League) -> SimConfig:
+    return SimConfig(league.field, league.robots, league.robots)
+
+
+def _league(league: League) -> dict[str, Any]:
+    """A choice with its policies."""
+    policies = [
+        {
+            "id": policy.id,
+            "name": policy.name,
+            "file": base64.b64encode((FOLDER / policy.file).read_bytes()).decode(),
+        }
+        for policy in league.policies
+    ]
+    scripted = _config(league).robot.drive == "omni"
+    return {**league._asdict(), "policies": policies, "scripted": scripted}
