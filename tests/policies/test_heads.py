@@ -115,7 +115,7 @@ def test_files_keep_the_head(kind: str, tmp_path: object) -> None:
             each.choose(observations, WorldRng.seeded(3, len(observations)))
             for each in (network, again)
         ]
-        assert np.array_equal(*actions)
+        assert np.array_equal(actions[0], actions[1])
         assert actions[0].any()
         assert actions[0].shape == (*observations.shape[:-1], 2)
     with pytest.raises(ValueError, match="format"):

@@ -72,6 +72,7 @@ def test_the_file_computes_what_the_network_does(kind: str, activation: str) -> 
         std = network.action_std
         if network.head.deviation is not None:
             std = network.head.deviation.of(network.outputs(observations)[:, 2:])
+        assert std is not None
         np.testing.assert_allclose(found["std"], np.broadcast_to(std, expected.shape), rtol=1e-5)
 
 
@@ -107,7 +108,7 @@ def test_exported_policies_draw_as_the_network_does(kind: str, tmp_path: Path) -
     assert kept == (network.mode, 2, 2, "VSS-v0")
     observations = task_observations(network)
     actions = [p.choose(observations, WorldRng.seeded(3, 6)) for p in (network, policy)]
-    np.testing.assert_allclose(*actions, rtol=0, atol=3e-6)
+    np.testing.assert_allclose(actions[0], actions[1], rtol=0, atol=3e-6)
     assert (policy.mode == "mean") is (kind == "greedy")
 
 

@@ -110,7 +110,27 @@ CORRUPTIONS: dict[str, tuple[Corruption, str]] = {
         "'action_std' should be float32",
     ),
     "other format": (lambda arrays, metadata: metadata.update(format="x"), "'format'.*'x'"),
-    "other activation": (lambda arrays, metadata: metadata.update(activation="relu"), "'relu'"),
+    "other activation": (lambda arrays, metadata: metadata.update(activation="gelu"), "'gelu'"),
+    "head in the plain format": (
+        lambda arrays, metadata: metadata.update(head="squashed"),
+        "'format' should be 'rsoccer-policy-3'",
+    ),
+    "other head": (
+        lambda arrays, metadata: metadata.update(format="rsoccer-policy-3", head="beta"),
+        "head: expected one of .* got 'beta'",
+    ),
+    "other deviation": (
+        lambda arrays, metadata: metadata.update(format="rsoccer-policy-3", deviation="exp 2 1"),
+        "deviation: expected a low number below",
+    ),
+    "table of no choices": (
+        lambda arrays, metadata: arrays.update(action_table=np.ones((2, 2), np.float32)),
+        "action_table: expected no array",
+    ),
+    "table out of range": (
+        lambda arrays, metadata: arrays.update(action_table=np.full((2, 2), 2, np.float32)),
+        "'action_table' should be within",
+    ),
     "no task": (lambda arrays, metadata: metadata.pop("task"), "'task'"),
     "clip of 0": (lambda arrays, metadata: metadata.update(clip="0"), "'clip'.*'0'"),
     "clip that is no number": (

@@ -79,6 +79,9 @@ class Deviation:
         Args:
             text: kind and numbers, such as "exp -20 2".
 
+        Returns:
+            The deviation.
+
         Raises:
             ValueError: another text.
         """
@@ -149,6 +152,9 @@ class Head:
             std: (a,) array `action_std`, or None.
             table: (c, a) array `action_table`, or None.
 
+        Returns:
+            The head.
+
         Raises:
             ValueError: an unknown head or deviation, or parts that do not belong together.
         """
@@ -166,7 +172,7 @@ class Head:
 
     @property
     def can_sample(self) -> bool:
-        """Whether there is a distribution to draw actions from."""
+        """True if there is a distribution to draw actions from."""
         if self.kind in CHOOSING:
             return self.kind == "categorical"
         return self.action_std is not None or self.deviation is not None

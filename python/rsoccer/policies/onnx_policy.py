@@ -86,6 +86,9 @@ class OnnxPolicy(HeldActions):
             task: the task that is played, whose `action_table` a model needs that gives whole
                 numbers; None without.
 
+        Returns:
+            The policy.
+
         Raises:
             FileNotFoundError: no such file.
             ImportError: onnxruntime is not installed.

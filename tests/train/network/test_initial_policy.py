@@ -13,6 +13,7 @@ from rsoccer.policies import make_policy
 from rsoccer.policies.network import Network
 from rsoccer.train.network import initial_policy
 from rsoccer.train.run.trainer import Trainer
+from tests.policies.networks import random_network
 from tests.train.one_update import one_update
 
 TASK = "SSLGoToBall-v0"
@@ -83,3 +84,14 @@ def test_policies_that_do_not_fit_are_refused(tmp_path: Path) -> None:
     long.close()
     with pytest.raises(ValueError, match="at most the run's history of 1, got one of 2"):
         trainer(tmp_path, initial_policy=str(tmp_path / "long.safetensors"))
+
+
+@pytest.mark.parametrize(("kind", "activation"), [("gaussian", "relu"), ("squashed", "tanh")])
+def test_other_networks_than_the_trainers_are_refused(
+    kind: str, activation: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "other.safetensors"
+    random_network(kind, activation).save(path)
+    task = rsoccer.make_task("VSS-v0")
+    with pytest.raises(ValueError, match=f"tanh layers .* got {activation} layers .* {kind!r}"):
+        initial_policy.load(str(path), task, ObservationStack.of(task, 1))
