@@ -360,7 +360,6 @@ const fn halves(word: u64) -> [u32; 2] {
 mod tests {
     use super::*;
     use crate::network::tests::file;
-    use rsim_referee::codes::Command;
 
     fn scripted(field: &str, seed: u32) -> Match {
         let mut one = Match::new(Setup::new(field, 3, 3, seed)).expect("valid");
@@ -383,9 +382,11 @@ mod tests {
         let rows = [3, 3, 4].map(|seed| play(&mut scripted("ssl_b", seed), 600));
         assert!(rows[0] == rows[1] && rows[0] != rows[2]);
         let mut one = scripted("ssl_b", 3);
-        play(&mut one, 600);
-        assert!(one.game().in_play || one.game().command != Command::PrepareKickoff(Team::Blue));
-        assert!(one.game().last_touch.is_some(), "somebody has played the ball");
+        let touched = (0..600).any(|_| {
+            play(&mut one, 1);
+            one.game().last_touch.is_some()
+        });
+        assert!(touched, "somebody plays the ball");
     }
 
     #[test]
@@ -449,8 +450,11 @@ mod tests {
         assert!(one.commands().iter().all(|command| command.abs() < 1e-9), "before the kick-off");
         let decision = one.decision(4).expect("a robot").expect("a network");
         assert_eq!((decision.observation.len(), decision.means.len()), (80, 2));
-        play(&mut one, 400);
-        assert!(one.commands().iter().any(|command| command.abs() > 1e-3));
+        let driven = (0..400).any(|_| {
+            play(&mut one, 1);
+            one.commands().iter().any(|command| command.abs() > 1e-3)
+        });
+        assert!(driven, "after the kick-off");
         one.set_idle(Team::Blue);
         assert_eq!(one.decision(0).expect("a robot"), None);
         assert!(one.set_scripted(Team::Blue, 1.0).is_err(), "a script of another league");
