@@ -155,6 +155,44 @@ def test_what_is_missing_is_named() -> None:
         connection.begin()
 
 
+def show(link: ServerLink, number: int, *, present: bool) -> None:
+    """Take a robot of blue off the field, or put it back."""
+    command = simulation_pb2.Command()
+    robot = command.control.teleport_robot.add(present=present)
+    robot.id.id, robot.id.team = number, simulation_pb2.BLUE
+    robot.x, robot.y, robot.orientation = -1.0, 2.0, 0.0
+    link.server.receive("control", command.SerializeToString(), OTHER, link.now)
+
+
+@pytest.mark.parametrize("returns", [False, True])
+def test_vision_that_starts_late_ends_no_wait(returns: bool) -> None:
+    link = ServerLink(referee="off")
+    connection = connected(CONFIG, link, "ssl-simulation", patience=4.0)
+    heard, link.heard, start = link.heard, set(), link.now
+    events: list[str] = []
+    connection.on_event.append(events.append)
+    show(link, 3, present=False)
+    real_poll = link.poll
+
+    def poll(seconds: float) -> list[Received]:
+        if link.now > start + 1.0:
+            link.heard = heard
+        if returns and link.now > start + 2.0 and link.frame.robots.absent[0, 3]:
+            show(link, 3, present=True)
+        return real_poll(seconds)
+
+    link.poll = poll  # type: ignore[method-assign]
+    if returns:
+        connection.begin()
+        assert 2.0 < link.now - start < 2.5
+        assert connection.sight.in_sight[3]
+    else:
+        with pytest.raises(ConnectionError, match="without blue 3$"):
+            connection.begin()
+    assert events == ["vision: lost, robots stop", "vision: back"]
+    assert set(speeds(link.messages)) == {0.0}
+
+
 @pytest.mark.parametrize(
     ("ids", "message"),
     [((1, 1), "ids: expected 2 different numbers"), ((1,), "ids: expected 2 different numbers")],
@@ -302,10 +340,7 @@ def test_a_robot_out_of_sight_stands() -> None:
     link = ServerLink(referee="off")
     connection = connected(CONFIG, link, "ssl-simulation")
     connection.begin()
-    command = simulation_pb2.Command()
-    robot = command.control.teleport_robot.add(present=False)
-    robot.id.id, robot.id.team = 3, simulation_pb2.BLUE
-    link.server.receive("control", command.SerializeToString(), OTHER, link.now)
+    show(link, 3, present=False)
     advance(connection, 0.7)
     last = simulation_pb2.RobotControl.FromString(link.messages[-1].data)
     velocity = [each.move_command.local_velocity.forward for each in last.robot_commands]

@@ -224,11 +224,15 @@ class Connection:
             waited = 0.0 if settings.is_synchronous else self._clock() - self._sent_at
             is_newer = self._take(min(max(0.0, period - waited), period))
             came = self.sight.frames - frames
-            if is_newer and (is_done() or (lost and self.sight.clock.now > before)):
+            is_back = lost and is_newer and self.sight.clock.now > before
+            if is_newer and (is_done() or (is_back and not stands)):
                 self._answer(commands, came - 1)
                 if lost:
                     self._reception.tell(f"{settings.source}: back")
                 return
+            if is_back:  # robots that stand have no old command to go on with
+                lost = False
+                self._reception.tell(f"{settings.source}: back")
             is_urgent = self.officials.is_halted != was_halted
             if not lost and self._reception.silence > settings.seconds_to_stop:
                 lost, commands, is_urgent = True, self._stopped, True
