@@ -187,7 +187,7 @@ def test_vision_that_starts_late_ends_no_wait(returns: bool) -> None:
         assert 2.0 < link.now - start < 2.5
         assert connection.sight.in_sight[3]
     else:
-        with pytest.raises(ConnectionError, match="without blue 3$"):
+        with pytest.raises(ConnectionError, match=r"without blue 3$"):
             connection.begin()
     assert events == ["vision: lost, robots stop", "vision: back"]
     assert set(speeds(link.messages)) == {0.0}

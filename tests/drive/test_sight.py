@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from rsoccer import SimConfig
+from rsoccer.drive.sight import FAR_BALLS, FAR_ROBOTS
 from rsoccer.drive.state_sight import FiraSight, make_sight
 from rsoccer.frame import Frame
 from rsoccer.game import BLUE, YELLOW
@@ -83,6 +84,42 @@ def test_robots_of_no_match_are_strangers() -> None:
     sight.take(packet(WireLayout(WHOLE), state(WHOLE), 0, 1.0))
     assert sight.strangers == [(BLUE, 2), (BLUE, 3), (YELLOW, 1)]
     assert sight.in_sight.all()
+
+
+@pytest.mark.parametrize(
+    ("source", "how"), [("vision", "far"), ("vision", "turned"), ("tracker", "far")]
+)
+def test_robots_that_are_not_believed_are_out_of_sight(source: str, how: str) -> None:
+    layout, frame = WireLayout(CONFIG), state(CONFIG)
+    sight = make_sight(layout, "ssl", source)
+    for number in range(60):
+        time = number / 60
+        if source == "vision":
+            data = packet(layout, frame, number, time)
+            message = vision_pb2.Packet.FromString(data)
+            if number > 20 and how == "far":
+                message.detection.robots_blue[1].x = 1e6
+                message.detection.balls[0].x = 1e6
+            elif number > 20:
+                message.detection.robots_blue[1].ClearField("orientation")
+        else:
+            message = tracker.to_packet(
+                layout, frame, frame_number=number, timestamp=time, uuid="one"
+            )
+            if number > 20:
+                message.tracked_frame.robots[1].pos.x = 1e3
+                message.tracked_frame.balls[0].pos.x = 1e3
+        sight.take(message.SerializeToString())
+        np.testing.assert_allclose(
+            read(sight, CONFIG).ball.position, frame.ball.position, atol=2e-3
+        )
+    assert sight.in_sight.tolist() == [True, False, True]
+    assert read(sight, CONFIG).robots.absent[0].tolist() == [0.0, 1.0, 0.0]
+    assert sight.numbers(BLUE) == [0]
+    assert not sight.strangers
+    unturned = {"robots: without orientation": 39}
+    expected = {"far": {FAR_ROBOTS: 39, FAR_BALLS: 39}, "turned": unturned}
+    assert sight.counts == expected[how]
 
 
 def test_frames_and_their_copies_are_counted_once_for_all_cameras() -> None:

@@ -38,7 +38,8 @@ class Connection:
         settings: the settings.
         sight: what is seen.
         officials: the referee.
-        counts: numbers of datagrams by what became of them, such as "vision: unreadable".
+        counts: numbers of datagrams by what became of them, such as "vision: unreadable", and of
+            bodies that are ignored, by the reason.
         contact: returns robots whose break beam is known, and those whose break beam is cut.
         on_event: called with words for what happens to vision, sides and referee.
         on_sent: called with time and commands (robots, command) when robots get others than before.

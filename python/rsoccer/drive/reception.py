@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Final
@@ -33,7 +32,8 @@ class Reception:
         settings: the settings.
         layout: sides and numbers on the wire; they follow a referee of the SSL.
         sight: what is seen.
-        counts: numbers of datagrams by what became of them, such as "vision: unreadable".
+        counts: numbers of datagrams by what became of them, such as "vision: unreadable", and of
+            bodies that are ignored, by the reason.
         on_event: called with words for what happens to vision, sides and referee.
     """
 
@@ -59,7 +59,7 @@ class Reception:
         given = settings.blue_on_positive_half
         self._follows_sides = given is None and settings.league == "ssl"
         self.sight = make_sight(layout, settings.league, settings.source)
-        self.counts: Counter[str] = Counter()
+        self.counts = self.sight.counts
         self.on_event: list[Callable[[str], None]] = []
         self._contact: Mask = np.zeros(layout.config.n_robots, np.bool_)
         self._contact_at: Doubles = np.full(layout.config.n_robots, -np.inf)

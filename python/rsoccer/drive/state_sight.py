@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Final
 
+import numpy as np
+
 from rsoccer._core import ROBOT_COLUMNS
 from rsoccer.arrays import Floats
 from rsoccer.drive.peers import Identity
-from rsoccer.drive.sight import DetectionSight, Sight
+from rsoccer.drive.sight import FAR_BALLS, FAR_ROBOTS, DetectionSight, Sight
 from rsoccer.frame import Frame
 from rsoccer.game import BLUE, YELLOW
 from rsoccer.protocols import fira, tracker
@@ -36,10 +38,20 @@ class StateSight(Sight):
     def _nothing(self) -> Frame:
         return Tracked.begin(self.layout, None, 0.0).frame
 
-    def _keep(self, tracked: Tracked, identities: Iterable[Identity], time: float) -> None:
-        self._frame = tracked.frame
-        self.has_ball |= tracked.ball
-        self._note(identities, time)
+    def _keep(self, tracked: Tracked, named: Iterable[Identity], time: float) -> None:
+        """Keep a state; bodies that are not believed stay as they were."""
+        frame, last = tracked.frame, self._frame
+        near = self._is_near(frame.robots.position[0])
+        far, ball = tracked.seen & ~near, tracked.ball
+        frame.robots.data[0, far] = last.robots.data[0, far]
+        self._count(FAR_ROBOTS, int(far.sum()))
+        if ball and not self._is_near(frame.ball.position)[0]:
+            frame.ball.data[:] = last.ball.data
+            self._count(FAR_BALLS, 1)
+            ball = False
+        self._frame = frame
+        self.has_ball |= ball
+        self._note(named, np.flatnonzero(tracked.seen & near).tolist(), time)
 
     def read(self, out: Floats) -> None:
         """Write the newest state; see `Sight.read`."""
