@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rsoccer import SimConfig
-from rsoccer.drive.sight import FAR_BALLS, FAR_ROBOTS
+from rsoccer.drive.sight import FAR_BALLS, FAR_ROBOTS, OLDER_FRAMES, UNCONFIRMED_FRAMES
 from rsoccer.drive.state_sight import FiraSight, make_sight
 from rsoccer.frame import Frame
 from rsoccer.game import BLUE, YELLOW
@@ -134,6 +134,40 @@ def test_frames_and_their_copies_are_counted_once_for_all_cameras() -> None:
         sight.take(message.SerializeToString())
         counts.append(sight.frames)
     assert counts == [1, 1, 2, 2, 3, 3, 4]
+
+
+@pytest.mark.parametrize("offset", [-0.004, 0.004])
+def test_all_cameras_count_whose_stamps_are_offset(offset: float) -> None:
+    layout = WireLayout(CONFIG)
+    sight = make_sight(layout, "ssl", "vision")
+    for number in range(60):
+        frame, time = state(CONFIG, 0.01 * number), 1.0 + number / 60
+        for camera, robots in ((0, [True, False, True]), (1, [False, True, False])):
+            message = vision.to_packet(
+                layout,
+                frame,
+                frame_number=number,
+                t_capture=time + camera * offset,
+                t_sent=time,
+                robots=np.array(robots),
+                ball=camera == 1,
+            )
+            message.detection.camera_id = camera
+            sight.take(message.SerializeToString())
+    assert sight.has_ball
+    assert sight.in_sight.all()
+    assert not sight.counts
+    found, expected = read(sight, CONFIG), state(CONFIG, 0.59)
+    np.testing.assert_allclose(found.ball.position, expected.ball.position, atol=6e-3)
+    np.testing.assert_allclose(found.robots.position, expected.robots.position, atol=6e-3)
+    np.testing.assert_allclose(found.robots.velocity, expected.robots.velocity, atol=0.03)
+
+
+def test_frames_that_are_late_are_counted() -> None:
+    sight = make_sight(WireLayout(CONFIG), "ssl", "vision")
+    for number, time in enumerate((1.0, 1.02, 1.01, 500.0)):
+        assert sight.take(packet(WireLayout(CONFIG), state(CONFIG), number, time)) == (number < 2)
+    assert sight.counts == {OLDER_FRAMES: 1, UNCONFIRMED_FRAMES: 1}
 
 
 def test_the_likeliest_ball_on_the_field_counts() -> None:

@@ -12,6 +12,7 @@ from rsoccer.arrays import Doubles, Mask
 from rsoccer.drive.officials import Officials
 from rsoccer.drive.peers import Peer
 from rsoccer.drive.settings import Settings
+from rsoccer.drive.sight import OLDER_FRAMES, UNCONFIRMED_FRAMES
 from rsoccer.drive.state_sight import make_sight
 from rsoccer.protocols.errors import MessageError
 from rsoccer.protocols.layout import TEAM_NAMES, WireLayout
@@ -102,7 +103,9 @@ class Reception:
         ]
         lacks += [] if sight.has_ball else ["the ball"]
         words = f"robots {', '.join(teams)} in sight"
-        return words + (f" without {', '.join(lacks)}" if lacks else "")
+        words += f" without {', '.join(lacks)}" if lacks else ""
+        ignored = {reason: self.counts[reason] for reason in (OLDER_FRAMES, UNCONFIRMED_FRAMES)}
+        return words + "".join(f"; ignored {k}: {n}" for k, n in ignored.items() if n)
 
     def take(self, port: str, data: bytes) -> bool:
         """Take in a datagram.

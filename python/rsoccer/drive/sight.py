@@ -27,6 +27,10 @@ FAR_ROBOTS: Final = "robots: far off the field"
 """Reason to ignore robots, by which they are counted."""
 FAR_BALLS: Final = "balls: far off the field"
 """Reason to ignore balls, by which they are counted."""
+OLDER_FRAMES: Final = "frames: older than the last one"
+"""Reason to ignore frames, by which they are counted."""
+UNCONFIRMED_FRAMES: Final = "frames: of another time"
+"""Reason to ignore frames whose stamps no others confirm, by which they are counted."""
 
 
 class Sight(ABC):
@@ -128,7 +132,11 @@ class Sight(ABC):
             self._senders.clear()
         self._stamp = stamp
         self._senders.add(sender)
-        return self.clock.at(stamp)
+        older = self.clock.older
+        found = self.clock.at(stamp, sender)
+        if found is None:
+            self._count(OLDER_FRAMES if self.clock.older > older else UNCONFIRMED_FRAMES, 1)
+        return found
 
     def _note(self, named: Iterable[Identity], slots: Iterable[int], time: float) -> None:
         """Note robots of others as they are named, and those of the match that are believed."""
