@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Sequence
 from typing import Final
@@ -94,8 +95,9 @@ class Connection:
         self._guard: GuardProcess | None = None
         try:
             if settings.guard and isinstance(self._link, SocketLink):
-                times = settings.guard_timeout, settings.rate
-                self._guard = GuardProcess(self._link, stops, *times)
+                # A simulator that waits takes stops for answers: only the end here counts.
+                timeout = math.inf if settings.is_synchronous else settings.guard_timeout
+                self._guard = GuardProcess(self._link, stops, timeout, settings.rate)
             self._send(self._stopped)
         except BaseException:
             self.close()
