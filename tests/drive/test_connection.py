@@ -210,14 +210,15 @@ def test_robots_of_the_other_league_are_refused(peer: str, field: str) -> None:
         Connection(SimConfig(field, 1, 0), Settings(peer), link=ServerLink())
 
 
-def test_a_team_that_another_client_drives_is_refused_in_the_end() -> None:
+@pytest.mark.parametrize("drives", [(0,), (0, 1)])
+def test_a_team_that_another_client_drives_is_refused_in_the_end(drives: tuple[int, ...]) -> None:
     link = ServerLink(referee="off")
     message = simulation_pb2.RobotControl()
     local = message.robot_commands.add(id=0).move_command.local_velocity
     local.forward = local.left = local.angular = 0.0
     data = message.SerializeToString()
     link.server.receive("blue", data, OTHER, link.now)
-    connection = connected(CONFIG, link, "ssl-simulation")
+    connection = connected(CONFIG, link, "ssl-simulation", drives=drives)
     with pytest.raises(
         RuntimeError, match=r"blue: TEAM_TAKEN: team: blue is driven by 127\.0\.0\.1:5109"
     ):

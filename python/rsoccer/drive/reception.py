@@ -65,7 +65,7 @@ class Reception:
         self._contact: Mask = np.zeros(layout.config.n_robots, np.bool_)
         self._contact_at: Doubles = np.full(layout.config.n_robots, -np.inf)
         self._problem = ""
-        self._refusal: tuple[str, float] | None = None
+        self._refusals: dict[str, tuple[str, float]] = {}  # by port, as each has its own client
         self._seen_at = clock()
 
     @property
@@ -74,10 +74,12 @@ class Reception:
         return max(0.0, self._clock() - self._seen_at)
 
     def lasting_refusal(self) -> str | None:
-        """Return why all commands have been refused for some time; None if they are not."""
-        if self._refusal is None or self._clock() - self._refusal[1] <= REFUSED_SECONDS:
-            return None
-        return self._refusal[0]
+        """Return why a team's commands have been refused for some time; None if they are not."""
+        now = self._clock()
+        for text, since in self._refusals.values():
+            if now - since > REFUSED_SECONDS:
+                return text
+        return None
 
     def contact(self) -> tuple[Mask, Mask]:
         """Return robots whose break beam is known, and those whose break beam is cut."""
@@ -175,8 +177,8 @@ class Reception:
         now = self._clock()
         refused = [f"{port}: {code}: {text}" for code, text in answer.errors if code in REFUSALS]
         if not refused:
-            self._refusal = None
-        elif self._refusal is None:
-            self._refusal = refused[0], now
+            self._refusals.pop(port, None)
+        elif port in TEAM_NAMES:  # commands are repeated, so that a team that is free shows
+            self._refusals.setdefault(port, (refused[0], now))
         self._contact[answer.reported] = answer.contact[answer.reported]
         self._contact_at[answer.reported] = now
