@@ -195,6 +195,27 @@ def test_another_tracker_is_refused() -> None:
             sight.take(data)
 
 
+def test_a_tracker_that_starts_again_is_taken() -> None:
+    layout, wall = WireLayout(CONFIG), [7.0]
+    sight = make_sight(layout, "ssl", "tracker", lambda: wall[0])
+    refused = taken = 0
+    for number in range(120):
+        wall[0] += 1 / 60
+        name = "one" if number < 30 else "two"
+        data = tracker.to_packet(
+            layout, state(CONFIG), frame_number=number, timestamp=number / 60, uuid=name
+        ).SerializeToString()
+        try:
+            taken += sight.take(data)
+        except MessageError:
+            refused += 1
+    assert 29 <= refused <= 31
+    # The time of its stamps is confirmed first, if it was silent for that long.
+    assert taken >= 120 - 31 - 3
+    assert sight.counts["tracker: another source"] == 1
+    assert sight.in_sight.all()
+
+
 def test_robots_out_of_sight_are_absent() -> None:
     layout = WireLayout(VSS, blue_on_positive_half=True)
     sight = FiraSight(layout)

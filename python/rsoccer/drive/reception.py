@@ -59,7 +59,7 @@ class Reception:
         self._peer, self._officials, self._clock = peer, officials, clock
         given = settings.blue_on_positive_half
         self._follows_sides = given is None and settings.league == "ssl"
-        self.sight = make_sight(layout, settings.league, settings.source)
+        self.sight = make_sight(layout, settings.league, settings.source, clock)
         self.counts = self.sight.counts
         self.on_event: list[Callable[[str], None]] = []
         self._contact: Mask = np.zeros(layout.config.n_robots, np.bool_)
@@ -94,10 +94,13 @@ class Reception:
         """
         settings, sight = self.settings, self.sight
         place = f"{settings.group_hosts[settings.source]}:{settings.port_numbers[settings.source]}"
+        unreadable = self.counts[f"{settings.source}: unreadable"]
+        others = f"{unreadable} other datagrams ({self._problem})" if unreadable else "nothing"
         if not sight.frames:
-            unreadable = self.counts[f"{settings.source}: unreadable"]
-            others = f"{unreadable} other datagrams ({self._problem})" if unreadable else "nothing"
             return f"no frames at {place}, {others}"
+        if self.silence > settings.seconds_to_stop:
+            words = f"no newer frames at {place} for {self.silence:.1f} s"
+            return words + (f", {others}" if unreadable else "") + self._ignored()
         missing = np.flatnonzero(wanted & ~sight.in_sight).tolist()
         teams = [f"{name} {sight.numbers(team)}" for team, name in enumerate(TEAM_NAMES)]
         lacks = [
@@ -106,8 +109,11 @@ class Reception:
         lacks += [] if sight.has_ball else ["the ball"]
         words = f"robots {', '.join(teams)} in sight"
         words += f" without {', '.join(lacks)}" if lacks else ""
-        ignored = {reason: self.counts[reason] for reason in (OLDER_FRAMES, UNCONFIRMED_FRAMES)}
-        return words + "".join(f"; ignored {k}: {n}" for k, n in ignored.items() if n)
+        return words + self._ignored()
+
+    def _ignored(self) -> str:
+        counts = {reason: self.counts[reason] for reason in (OLDER_FRAMES, UNCONFIRMED_FRAMES)}
+        return "".join(f"; ignored {reason}: {count}" for reason, count in counts.items() if count)
 
     def take(self, port: str, data: bytes) -> bool:
         """Take in a datagram.

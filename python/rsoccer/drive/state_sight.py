@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import math
+import time
+from collections.abc import Callable, Iterable
 from typing import Final
 
 import numpy as np
@@ -20,6 +22,9 @@ from rsoccer.protocols.parsing import parse
 from rsoccer.protocols.schemas import fira_pb2, tracker_pb2
 from rsoccer.protocols.tracked import Tracked
 
+SILENT_SECONDS: Final = 0.5
+"""Time without a packet of a tracker after which another one is taken, s, as trackers that start
+again have another name."""
 _ABSENT: Final = ROBOT_COLUMNS.index("absent")
 
 
@@ -69,20 +74,33 @@ class StateSight(Sight):
 
 
 class TrackerSight(StateSight):
-    """Frames of the tracker that is heard first."""
+    """Frames of one tracker: the one that is heard first, and another once it is silent."""
 
-    _source: str | None = None
+    def __init__(self, layout: WireLayout, clock: Callable[[], float] = time.monotonic) -> None:
+        """Begin before the first frame.
+
+        Args:
+            layout: sides and numbers on the wire.
+            clock: time on the wall, s.
+        """
+        super().__init__(layout)
+        self._clock = clock
+        self._source: str | None = None
+        self._heard_at = -math.inf
 
     def take(self, data: bytes) -> bool:
         """Take in a packet of a tracker; see `Sight.take`."""
         message = parse(tracker_pb2.Packet, data)
         if not message.HasField("tracked_frame"):
             return False
-        if self._source is None:
-            self._source = message.uuid
+        wall = self._clock()
         if message.uuid != self._source:
-            name = message.source_name or message.uuid
-            raise MessageError(Code.UNREADABLE, f"tracker: expected one source, got {name} too")
+            if wall - self._heard_at <= SILENT_SECONDS:
+                name = message.source_name or message.uuid
+                raise MessageError(Code.UNREADABLE, f"tracker: expected one source, got {name} too")
+            self._count("tracker: another source", int(self._source is not None))
+            self._source = message.uuid
+        self._heard_at = wall
         before, frame = self.clock.now, message.tracked_frame
         found = self._time(frame.timestamp)
         if found is None:
@@ -121,14 +139,17 @@ class FiraSight(StateSight):
         return found[0] > before or self.frames == 1
 
 
-def make_sight(layout: WireLayout, league: str, source: str) -> Sight:
+def make_sight(
+    layout: WireLayout, league: str, source: str, clock: Callable[[], float] = time.monotonic
+) -> Sight:
     """Return what reads the frames of a connection.
 
     Args:
         layout: the match.
         league: "ssl" or "vsss".
         source: "vision" or "tracker".
+        clock: time on the wall, s.
     """
     if league == "vsss":
         return FiraSight(layout)
-    return DetectionSight(layout) if source == "vision" else TrackerSight(layout)
+    return DetectionSight(layout) if source == "vision" else TrackerSight(layout, clock)
