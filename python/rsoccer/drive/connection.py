@@ -159,16 +159,24 @@ class Connection:
         self._send(self._stopped)
         self._pump(self._stopped, is_done, wanted, stands=True)
 
-    def begin(self) -> None:
-        """Wait until the ball and all robots that are driven are in sight.
+    def begin(self, *, needs_all: bool = True) -> None:
+        """Wait until there are frames, and the ball and all robots that are driven are in sight.
+
+        Args:
+            needs_all: whether ball and robots are awaited; else frames alone.
 
         Raises:
             ConnectionError: they are not for `patience`. The message has what is in sight.
             RuntimeError: the simulator refuses all commands, or the guard has ended.
         """
-        if self._reception.silence > self.settings.seconds_to_stop or not self._is_ready():
+
+        def is_ready() -> bool:
+            return not needs_all or self._is_ready()
+
+        if self._reception.silence > self.settings.seconds_to_stop or not is_ready():
             seen = self.sight.frames
-            self.stand(lambda: self.sight.frames > seen and self._is_ready(), "all in sight")
+            wanted = "all in sight" if needs_all else "a frame"
+            self.stand(lambda: self.sight.frames > seen and is_ready(), wanted)
 
     def put(self, messages: Sequence[Message]) -> None:
         """Send messages that put bodies.
