@@ -102,14 +102,15 @@ def test_robots_that_are_not_believed_are_out_of_sight(source: str, how: str) ->
                 message.detection.balls[0].x = 1e6
             elif number > 20:
                 message.detection.robots_blue[1].ClearField("orientation")
+            sight.take(message.SerializeToString())
         else:
-            message = tracker.to_packet(
+            tracked = tracker.to_packet(
                 layout, frame, frame_number=number, timestamp=time, uuid="one"
             )
             if number > 20:
-                message.tracked_frame.robots[1].pos.x = 1e3
-                message.tracked_frame.balls[0].pos.x = 1e3
-        sight.take(message.SerializeToString())
+                tracked.tracked_frame.robots[1].pos.x = 1e3
+                tracked.tracked_frame.balls[0].pos.x = 1e3
+            sight.take(tracked.SerializeToString())
         np.testing.assert_allclose(
             read(sight, CONFIG).ball.position, frame.ball.position, atol=2e-3
         )

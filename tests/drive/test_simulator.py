@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -144,7 +145,7 @@ def test_play_goes_on_without_a_robot_that_was_taken_off() -> None:
     link.server.receive("control", command.SerializeToString(), ("127.0.0.1", 5109), link.now)
     for _ in range(40):
         stepper.step(commands, out)
-    calls = (
+    calls: tuple[Callable[[], object], ...] = (
         lambda: stepper.place(world, rows, out),
         lambda: stepper.restart(world, rows, out),
         lambda: stepper.reposition_balls(world, rows[:, :5], out),
