@@ -10,8 +10,10 @@ import pytest
 from rsoccer import Sensing, SimConfig
 from rsoccer.drive.check import Movement, check_robot, describe
 from rsoccer.drive.connection import Connection
+from rsoccer.drive.link import Received
 from rsoccer.drive.peers import Message
-from rsoccer.protocols.schemas import simulation_pb2
+from rsoccer.drive.settings import Limits
+from rsoccer.protocols.schemas import simulation_pb2, vision_pb2
 from tests.drive.wires import ServerLink, connected
 
 SSL = SimConfig("ssl_b", 1, 0)
@@ -90,6 +92,48 @@ def test_verdicts(
     asked: tuple[float, float, float], seen: tuple[float, float, float], words: str
 ) -> None:
     assert words in Movement("forward", asked, seen).verdict
+
+
+def test_a_ball_that_nobody_sees_takes_no_space() -> None:
+    link = ServerLink(referee="off")
+    connection = connected(SSL, link, "ssl-simulation", ids=(5,))
+    command = simulation_pb2.Command()
+    robot = command.control.teleport_robot.add(x=0.05, y=0.05, orientation=0.0)
+    robot.id.id, robot.id.team = 5, simulation_pb2.BLUE
+    command.control.teleport_ball.x, command.control.teleport_ball.y = 3.0, 1.0
+    link.server.receive("control", command.SerializeToString(), ("127.0.0.1", 5109), link.now)
+    real_poll = link.poll
+
+    def poll(seconds: float) -> list[Received]:
+        found = []
+        for port, sent in real_poll(seconds):
+            data = sent
+            if port == "vision":
+                packet = vision_pb2.Packet.FromString(data)
+                packet.detection.ClearField("balls")
+                data = packet.SerializeToString()
+            found.append(Received(port, data))
+        return found
+
+    link.poll = poll  # type: ignore[method-assign]
+    found = check_robot(connection, 0)
+    assert np.abs(found.position).max() < 0.1
+    assert not connection.sight.has_ball
+    assert found.is_right
+
+
+@pytest.mark.parametrize(
+    ("limits", "message"),
+    [
+        (Limits(speed=0.3), r"limits: speed: expected 0\.4 m/s or more for the check, got 0\.3"),
+        (Limits(angular_velocity=1.0), r"limits: angular_velocity: expected 2 rad/s .*, got 1$"),
+    ],
+)
+def test_limits_below_the_speeds_of_the_check_are_refused(limits: Limits, message: str) -> None:
+    link = ServerLink(referee="off")
+    connection = connected(SSL, link, "ssl-simulation", ids=(5,), limits=limits)
+    with pytest.raises(ValueError, match=message):
+        check_robot(connection, 0)
 
 
 def test_a_robot_needs_space_and_must_be_driven() -> None:

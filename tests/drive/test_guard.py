@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import contextlib
 import socket
 import subprocess
 import sys
 import threading
 
+import numpy as np
 import pytest
 
 from rsoccer import SimConfig
 from rsoccer.bridge.sockets import LOOPBACK, receiver
+from rsoccer.drive.connection import Connection
+from rsoccer.drive.settings import Settings
 from rsoccer.frame import Frame
 from rsoccer.protocols import fira
 from rsoccer.protocols.layout import WireLayout
@@ -59,6 +63,36 @@ class FakeFiraSim:
         self._is_over.set()
         self._thread.join()
         self.commands.close()
+
+
+@pytest.mark.parametrize("waits", [False, True])
+def test_a_simulator_that_waits_gets_no_stops_while_a_policy_decides(waits: bool) -> None:
+    peer = FakeFiraSim()
+    settings = Settings(
+        "firasim",
+        ports={"command": peer.port, "vision": peer.vision},
+        groups={"vision": LOOPBACK},
+        referee="ignore",
+        is_synchronous=waits,
+        guard_timeout=0.1,
+    )
+    connection = Connection(CONFIG, settings)
+    try:
+        connection.begin()
+        commands = np.full((6, 2), 20.0, np.float32)
+        connection.advance(commands, connection.sight.clock.now + 0.05)
+        while peer.wheels()[0] == 0.0:
+            pass
+        peer.commands.settimeout(0.6)  # a decision that takes as long
+        speeds = []
+        with contextlib.suppress(TimeoutError):
+            while 0.0 not in speeds:
+                speeds.append(peer.wheels()[0])
+        assert (0.0 in speeds) == (not waits)
+        peer.commands.settimeout(PATIENCE)
+    finally:
+        connection.close()
+        peer.close()
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")

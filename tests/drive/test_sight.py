@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from rsoccer import SimConfig
+from rsoccer.drive.sight import FAR_BALLS, FAR_ROBOTS, OLDER_FRAMES, UNCONFIRMED_FRAMES
 from rsoccer.drive.state_sight import FiraSight, make_sight
 from rsoccer.frame import Frame
 from rsoccer.game import BLUE, YELLOW
@@ -85,6 +86,43 @@ def test_robots_of_no_match_are_strangers() -> None:
     assert sight.in_sight.all()
 
 
+@pytest.mark.parametrize(
+    ("source", "how"), [("vision", "far"), ("vision", "turned"), ("tracker", "far")]
+)
+def test_robots_that_are_not_believed_are_out_of_sight(source: str, how: str) -> None:
+    layout, frame = WireLayout(CONFIG), state(CONFIG)
+    sight = make_sight(layout, "ssl", source)
+    for number in range(60):
+        time = number / 60
+        if source == "vision":
+            data = packet(layout, frame, number, time)
+            message = vision_pb2.Packet.FromString(data)
+            if number > 20 and how == "far":
+                message.detection.robots_blue[1].x = 1e6
+                message.detection.balls[0].x = 1e6
+            elif number > 20:
+                message.detection.robots_blue[1].ClearField("orientation")
+            sight.take(message.SerializeToString())
+        else:
+            tracked = tracker.to_packet(
+                layout, frame, frame_number=number, timestamp=time, uuid="one"
+            )
+            if number > 20:
+                tracked.tracked_frame.robots[1].pos.x = 1e3
+                tracked.tracked_frame.balls[0].pos.x = 1e3
+            sight.take(tracked.SerializeToString())
+        np.testing.assert_allclose(
+            read(sight, CONFIG).ball.position, frame.ball.position, atol=2e-3
+        )
+    assert sight.in_sight.tolist() == [True, False, True]
+    assert read(sight, CONFIG).robots.absent[0].tolist() == [0.0, 1.0, 0.0]
+    assert sight.numbers(BLUE) == [0]
+    assert not sight.strangers
+    unturned = {"robots: without orientation": 39}
+    expected = {"far": {FAR_ROBOTS: 39, FAR_BALLS: 39}, "turned": unturned}
+    assert sight.counts == expected[how]
+
+
 def test_frames_and_their_copies_are_counted_once_for_all_cameras() -> None:
     layout = WireLayout(CONFIG)
     sight = make_sight(layout, "ssl", "vision")
@@ -97,6 +135,40 @@ def test_frames_and_their_copies_are_counted_once_for_all_cameras() -> None:
         sight.take(message.SerializeToString())
         counts.append(sight.frames)
     assert counts == [1, 1, 2, 2, 3, 3, 4]
+
+
+@pytest.mark.parametrize("offset", [-0.004, 0.004])
+def test_all_cameras_count_whose_stamps_are_offset(offset: float) -> None:
+    layout = WireLayout(CONFIG)
+    sight = make_sight(layout, "ssl", "vision")
+    for number in range(60):
+        frame, time = state(CONFIG, 0.01 * number), 1.0 + number / 60
+        for camera, robots in ((0, [True, False, True]), (1, [False, True, False])):
+            message = vision.to_packet(
+                layout,
+                frame,
+                frame_number=number,
+                t_capture=time + camera * offset,
+                t_sent=time,
+                robots=np.array(robots),
+                ball=camera == 1,
+            )
+            message.detection.camera_id = camera
+            sight.take(message.SerializeToString())
+    assert sight.has_ball
+    assert sight.in_sight.all()
+    assert not sight.counts
+    found, expected = read(sight, CONFIG), state(CONFIG, 0.59)
+    np.testing.assert_allclose(found.ball.position, expected.ball.position, atol=6e-3)
+    np.testing.assert_allclose(found.robots.position, expected.robots.position, atol=6e-3)
+    np.testing.assert_allclose(found.robots.velocity, expected.robots.velocity, atol=0.03)
+
+
+def test_frames_that_are_late_are_counted() -> None:
+    sight = make_sight(WireLayout(CONFIG), "ssl", "vision")
+    for number, time in enumerate((1.0, 1.02, 1.01, 500.0)):
+        assert sight.take(packet(WireLayout(CONFIG), state(CONFIG), number, time)) == (number < 2)
+    assert sight.counts == {OLDER_FRAMES: 1, UNCONFIRMED_FRAMES: 1}
 
 
 def test_the_likeliest_ball_on_the_field_counts() -> None:
@@ -122,6 +194,27 @@ def test_another_tracker_is_refused() -> None:
             continue
         with pytest.raises(MessageError, match="expected one source, got two too"):
             sight.take(data)
+
+
+def test_a_tracker_that_starts_again_is_taken() -> None:
+    layout, wall = WireLayout(CONFIG), [7.0]
+    sight = make_sight(layout, "ssl", "tracker", lambda: wall[0])
+    refused = taken = 0
+    for number in range(120):
+        wall[0] += 1 / 60
+        name = "one" if number < 30 else "two"
+        data = tracker.to_packet(
+            layout, state(CONFIG), frame_number=number, timestamp=number / 60, uuid=name
+        ).SerializeToString()
+        try:
+            taken += sight.take(data)
+        except MessageError:
+            refused += 1
+    assert 29 <= refused <= 31
+    # The time of its stamps is confirmed first, if it was silent for that long.
+    assert taken >= 120 - 31 - 3
+    assert sight.counts["tracker: another source"] == 1
+    assert sight.in_sight.all()
 
 
 def test_robots_out_of_sight_are_absent() -> None:

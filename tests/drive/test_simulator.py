@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,7 @@ from rsoccer.drive import (
 )
 from rsoccer.drive.connection import Connection
 from rsoccer.evaluate import evaluate
+from rsoccer.frame import Frame
 from rsoccer.lineup import lineup
 from rsoccer.protocols.schemas import simulation_pb2
 from rsoccer.registry import make_task
@@ -127,6 +129,34 @@ def test_untouched_robots_stay() -> None:
     stepper.reset()
     with pytest.raises(ValueError, match="cannot place bodies"):
         stepper.reset(rows=np.zeros((1, stepper.task.config.row_size), np.float32))
+
+
+def test_play_goes_on_without_a_robot_that_was_taken_off() -> None:
+    link = ServerLink(referee="off")
+    config = SimConfig("ssl_b", 2, 0)
+    stepper = UntouchedNetwork(connected(config, link, "ssl-simulation", patience=3.0))
+    world, rows = np.ones(1, np.bool_), np.zeros((1, config.row_size), np.float32)
+    out, commands = rows.copy(), np.zeros((1, 2, len(config.command_columns)), np.float32)
+    stepper.place(world, rows, out)
+    assert not Frame(out, 2, 0).robots.absent.any()
+    command = simulation_pb2.Command()
+    robot = command.control.teleport_robot.add(present=False)
+    robot.id.id, robot.id.team = 1, simulation_pb2.BLUE
+    link.server.receive("control", command.SerializeToString(), ("127.0.0.1", 5109), link.now)
+    for _ in range(40):
+        stepper.step(commands, out)
+    calls: tuple[Callable[[], object], ...] = (
+        lambda: stepper.place(world, rows, out),
+        lambda: stepper.restart(world, rows, out),
+        lambda: stepper.reposition_balls(world, rows[:, :5], out),
+    )
+    for call in calls:
+        out[:] = np.nan
+        call()
+        assert Frame(out, 2, 0).robots.absent[0].tolist() == [0.0, 1.0]
+    # A match that begins needs it.
+    with pytest.raises(ConnectionError, match=r"expected all in sight .* without blue 1$"):
+        UntouchedNetwork(stepper.connection).place(world, rows, out)
 
 
 def test_what_cannot_be_changed_is_refused() -> None:

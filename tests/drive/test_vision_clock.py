@@ -22,10 +22,22 @@ def test_time_is_that_of_the_stamps_since_the_first() -> None:
     assert clock.jumps == 0
 
 
-def test_frames_of_other_cameras_may_be_a_little_late() -> None:
+def test_frames_that_are_late_on_their_way_are_of_no_use() -> None:
     clock = VisionClock()
     stamps = [UNIX, UNIX + 0.03125, UNIX + 0.015625, UNIX + 0.0625]
     assert times(clock, *stamps) == [0.0, 0.03125, None, 0.0625]
+    assert clock.older == 1
+
+
+def test_frames_of_other_cameras_may_be_a_little_late() -> None:
+    clock = VisionClock()
+    found = []
+    for frame in range(3):
+        time = UNIX + 0.015625 * frame
+        found += [clock.at(time, 0), clock.at(time - 0.00390625, 1)]
+    assert found == [(0.015625 * (k // 2), False) for k in range(6)]
+    assert clock.at(UNIX, 1) is None
+    assert (clock.older, clock.jumps) == (1, 0)
 
 
 @pytest.mark.parametrize("jump", [3600.0, -3600.0, 1e9, -UNIX])

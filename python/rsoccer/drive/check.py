@@ -99,11 +99,21 @@ def check_robot(connection: Connection, slot: int) -> CheckedRobot:
     Raises:
         ConnectionError: it is out of sight, or vision ends.
         RuntimeError: the simulator refuses all commands, or the guard has ended.
-        ValueError: no such robot, or a robot or a line too near.
+        ValueError: no such robot, limits below the speeds of the check, or a robot, a line or the
+            ball too near.
     """
     driven = np.flatnonzero(connection.driven)
     if slot not in driven:
         raise ValueError(f"check: expected one of {driven.tolist()}, got {slot}")
+    limits = connection.settings.limits
+    for name, limit, needed, unit in (
+        ("speed", limits.speed, SPEED, "m/s"),
+        ("angular_velocity", limits.angular_velocity, ANGULAR_VELOCITY, "rad/s"),
+    ):
+        if limit < needed:  # the robot would do less than it is compared with
+            raise ValueError(
+                f"limits: {name}: expected {needed:g} {unit} or more for the check, got {limit:g}"
+            )
     seen = connection.sight.frames
     connection.stand(
         lambda: connection.sight.frames > seen and bool(connection.sight.in_sight[slot]),
@@ -143,13 +153,13 @@ def _place(row: Floats, slot: int) -> Floats:
 def _check_space(connection: Connection, row: Floats, slot: int) -> None:
     field, place = connection.config.field, _place(row, slot)
     to_lines = min(field.length / 2 - abs(place[0]), field.width / 2 - abs(place[1]))
-    others = [row[0, :2]]
+    others = [row[0, :2]] if connection.sight.has_ball else []
     others += [
         _place(row, other)[:2]
         for other in range(connection.config.n_robots)
         if other != slot and connection.sight.in_sight[other]
     ]
-    nearest = min(float(np.hypot(*(place[:2] - other))) for other in others)
+    nearest = min((float(np.hypot(*(place[:2] - other))) for other in others), default=math.inf)
     free = min(to_lines, nearest)
     needed = SPEED * SECONDS + 2 * reach(connection.config.robots[slot]) + MARGIN
     if free < needed:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Sequence
 from typing import Final
@@ -38,7 +39,8 @@ class Connection:
         settings: the settings.
         sight: what is seen.
         officials: the referee.
-        counts: numbers of datagrams by what became of them, such as "vision: unreadable".
+        counts: numbers of datagrams by what became of them, such as "vision: unreadable", and of
+            bodies that are ignored, by the reason.
         contact: returns robots whose break beam is known, and those whose break beam is cut.
         on_event: called with words for what happens to vision, sides and referee.
         on_sent: called with time and commands (robots, command) when robots get others than before.
@@ -93,8 +95,9 @@ class Connection:
         self._guard: GuardProcess | None = None
         try:
             if settings.guard and isinstance(self._link, SocketLink):
-                times = settings.guard_timeout, settings.rate
-                self._guard = GuardProcess(self._link, stops, *times)
+                # A simulator that waits takes stops for answers: only the end here counts.
+                timeout = math.inf if settings.is_synchronous else settings.guard_timeout
+                self._guard = GuardProcess(self._link, stops, timeout, settings.rate)
             self._send(self._stopped)
         except BaseException:
             self.close()
@@ -156,16 +159,24 @@ class Connection:
         self._send(self._stopped)
         self._pump(self._stopped, is_done, wanted, stands=True)
 
-    def begin(self) -> None:
-        """Wait until the ball and all robots that are driven are in sight.
+    def begin(self, *, needs_all: bool = True) -> None:
+        """Wait until there are frames, and the ball and all robots that are driven are in sight.
+
+        Args:
+            needs_all: whether ball and robots are awaited; else frames alone.
 
         Raises:
             ConnectionError: they are not for `patience`. The message has what is in sight.
             RuntimeError: the simulator refuses all commands, or the guard has ended.
         """
-        if self._reception.silence > self.settings.seconds_to_stop or not self._is_ready():
+
+        def is_ready() -> bool:
+            return not needs_all or self._is_ready()
+
+        if self._reception.silence > self.settings.seconds_to_stop or not is_ready():
             seen = self.sight.frames
-            self.stand(lambda: self.sight.frames > seen and self._is_ready(), "all in sight")
+            wanted = "all in sight" if needs_all else "a frame"
+            self.stand(lambda: self.sight.frames > seen and is_ready(), wanted)
 
     def put(self, messages: Sequence[Message]) -> None:
         """Send messages that put bodies.
@@ -224,11 +235,15 @@ class Connection:
             waited = 0.0 if settings.is_synchronous else self._clock() - self._sent_at
             is_newer = self._take(min(max(0.0, period - waited), period))
             came = self.sight.frames - frames
-            if is_newer and (is_done() or (lost and self.sight.clock.now > before)):
+            is_back = lost and is_newer and self.sight.clock.now > before
+            if is_newer and (is_done() or (is_back and not stands)):
                 self._answer(commands, came - 1)
                 if lost:
                     self._reception.tell(f"{settings.source}: back")
                 return
+            if is_back:  # robots that stand have no old command to go on with
+                lost = False
+                self._reception.tell(f"{settings.source}: back")
             is_urgent = self.officials.is_halted != was_halted
             if not lost and self._reception.silence > settings.seconds_to_stop:
                 lost, commands, is_urgent = True, self._stopped, True

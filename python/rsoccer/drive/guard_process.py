@@ -19,6 +19,8 @@ from rsoccer.drive.peers import Message
 
 SIGNS_IN_TIMEOUT: Final = 6
 """Signs of life in the time after which the guard acts."""
+MAX_PERIOD: Final = 1.0
+"""Longest time between signs of life, s: they show as well that the guard lives."""
 _GUARD: Final = Path(__file__).with_name("guard.py")
 
 
@@ -40,7 +42,8 @@ class GuardProcess:
         Args:
             link: sockets and addresses of the ports.
             stops: messages that stop the robots.
-            timeout: time without a sign of life after which it sends them, s.
+            timeout: time without a sign of life after which it sends them, s; infinite for a guard
+                that acts only when this process ends.
             rate: rate at which it repeats them, Hz.
 
         Raises:
@@ -62,7 +65,7 @@ class GuardProcess:
             start_new_session=inherits,  # Ctrl-C in a terminal is for the driving process alone
         )
         self.pid = self._process.pid
-        self._period = timeout / SIGNS_IN_TIMEOUT
+        self._period = min(timeout / SIGNS_IN_TIMEOUT, MAX_PERIOD)
         self._last = 0.0
         assert self._process.stdin is not None, "it was asked for"
         self._input = self._process.stdin.fileno()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Final
@@ -13,6 +12,7 @@ from rsoccer.arrays import Doubles, Mask
 from rsoccer.drive.officials import Officials
 from rsoccer.drive.peers import Peer
 from rsoccer.drive.settings import Settings
+from rsoccer.drive.sight import OLDER_FRAMES, UNCONFIRMED_FRAMES
 from rsoccer.drive.state_sight import make_sight
 from rsoccer.protocols.errors import MessageError
 from rsoccer.protocols.layout import TEAM_NAMES, WireLayout
@@ -33,7 +33,8 @@ class Reception:
         settings: the settings.
         layout: sides and numbers on the wire; they follow a referee of the SSL.
         sight: what is seen.
-        counts: numbers of datagrams by what became of them, such as "vision: unreadable".
+        counts: numbers of datagrams by what became of them, such as "vision: unreadable", and of
+            bodies that are ignored, by the reason.
         on_event: called with words for what happens to vision, sides and referee.
     """
 
@@ -58,13 +59,13 @@ class Reception:
         self._peer, self._officials, self._clock = peer, officials, clock
         given = settings.blue_on_positive_half
         self._follows_sides = given is None and settings.league == "ssl"
-        self.sight = make_sight(layout, settings.league, settings.source)
-        self.counts: Counter[str] = Counter()
+        self.sight = make_sight(layout, settings.league, settings.source, clock)
+        self.counts = self.sight.counts
         self.on_event: list[Callable[[str], None]] = []
         self._contact: Mask = np.zeros(layout.config.n_robots, np.bool_)
         self._contact_at: Doubles = np.full(layout.config.n_robots, -np.inf)
         self._problem = ""
-        self._refusal: tuple[str, float] | None = None
+        self._refusals: dict[str, tuple[str, float]] = {}  # by port, as each has its own client
         self._seen_at = clock()
 
     @property
@@ -73,10 +74,12 @@ class Reception:
         return max(0.0, self._clock() - self._seen_at)
 
     def lasting_refusal(self) -> str | None:
-        """Return why all commands have been refused for some time; None if they are not."""
-        if self._refusal is None or self._clock() - self._refusal[1] <= REFUSED_SECONDS:
-            return None
-        return self._refusal[0]
+        """Return why a team's commands have been refused for some time; None if they are not."""
+        now = self._clock()
+        for text, since in self._refusals.values():
+            if now - since > REFUSED_SECONDS:
+                return text
+        return None
 
     def contact(self) -> tuple[Mask, Mask]:
         """Return robots whose break beam is known, and those whose break beam is cut."""
@@ -91,10 +94,13 @@ class Reception:
         """
         settings, sight = self.settings, self.sight
         place = f"{settings.group_hosts[settings.source]}:{settings.port_numbers[settings.source]}"
+        unreadable = self.counts[f"{settings.source}: unreadable"]
+        others = f"{unreadable} other datagrams ({self._problem})" if unreadable else "nothing"
         if not sight.frames:
-            unreadable = self.counts[f"{settings.source}: unreadable"]
-            others = f"{unreadable} other datagrams ({self._problem})" if unreadable else "nothing"
             return f"no frames at {place}, {others}"
+        if self.silence > settings.seconds_to_stop:
+            words = f"no newer frames at {place} for {self.silence:.1f} s"
+            return words + (f", {others}" if unreadable else "") + self._ignored()
         missing = np.flatnonzero(wanted & ~sight.in_sight).tolist()
         teams = [f"{name} {sight.numbers(team)}" for team, name in enumerate(TEAM_NAMES)]
         lacks = [
@@ -102,7 +108,12 @@ class Reception:
         ]
         lacks += [] if sight.has_ball else ["the ball"]
         words = f"robots {', '.join(teams)} in sight"
-        return words + (f" without {', '.join(lacks)}" if lacks else "")
+        words += f" without {', '.join(lacks)}" if lacks else ""
+        return words + self._ignored()
+
+    def _ignored(self) -> str:
+        counts = {reason: self.counts[reason] for reason in (OLDER_FRAMES, UNCONFIRMED_FRAMES)}
+        return "".join(f"; ignored {reason}: {count}" for reason, count in counts.items() if count)
 
     def take(self, port: str, data: bytes) -> bool:
         """Take in a datagram.
@@ -172,8 +183,8 @@ class Reception:
         now = self._clock()
         refused = [f"{port}: {code}: {text}" for code, text in answer.errors if code in REFUSALS]
         if not refused:
-            self._refusal = None
-        elif self._refusal is None:
-            self._refusal = refused[0], now
+            self._refusals.pop(port, None)
+        elif port in TEAM_NAMES:  # commands are repeated, so that a team that is free shows
+            self._refusals.setdefault(port, (refused[0], now))
         self._contact[answer.reported] = answer.contact[answer.reported]
         self._contact_at[answer.reported] = now

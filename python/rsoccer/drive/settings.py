@@ -91,7 +91,8 @@ class Settings:
         rate: rate at which commands are repeated while no frames come, Hz. With each frame they are
             sent again anyway.
         guard: whether a second process stops the robots when this one fails.
-        guard_timeout: time without a sign of life after which it does, s.
+        guard_timeout: time without a sign of life after which it does, s. With a simulator that
+            waits only the end of the process counts, as its time stands still until then.
         contact_gap: gap up to which a robot touches the ball, m: about the noise of vision.
     """
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections import Counter
 from collections.abc import Iterable
 from typing import Final
 
@@ -22,6 +23,14 @@ ABSENT_SECONDS: Final = 0.5
 """Time without a sight after which a robot counts as absent, s."""
 AROUND: Final = 3.0
 """Distance from the lines up to which bodies are believed, m."""
+FAR_ROBOTS: Final = "robots: far off the field"
+"""Reason to ignore robots, by which they are counted."""
+FAR_BALLS: Final = "balls: far off the field"
+"""Reason to ignore balls, by which they are counted."""
+OLDER_FRAMES: Final = "frames: older than the last one"
+"""Reason to ignore frames, by which they are counted."""
+UNCONFIRMED_FRAMES: Final = "frames: of another time"
+"""Reason to ignore frames whose stamps no others confirm, by which they are counted."""
 
 
 class Sight(ABC):
@@ -34,6 +43,8 @@ class Sight(ABC):
             clients sends a frame again until it is answered.
         field_size: length and width of the field by the sender, m; None before they are known.
         has_ball: whether the ball was seen.
+        counts: numbers of bodies and frames that are ignored, by the reason, such as
+            "robots: far off the field".
     """
 
     def __init__(self, layout: WireLayout) -> None:
@@ -47,6 +58,7 @@ class Sight(ABC):
         self.frames = 0
         self.field_size: tuple[float, float] | None = None
         self.has_ball = False
+        self.counts: Counter[str] = Counter()
         self._stamp: float | None = None
         self._senders: set[int] = set()
         self._seen: dict[Identity, float] = {}
@@ -83,7 +95,7 @@ class Sight(ABC):
 
     @property
     def in_sight(self) -> Mask:
-        """(robots,) robots that were seen not long before the newest frame."""
+        """(robots,) robots that were seen, and believed, not long before the newest frame."""
         identities = (self.layout.identity(slot) for slot in range(self.layout.config.n_robots))
         return np.array([identity in self._recent for identity in identities], np.bool_)
 
@@ -120,10 +132,21 @@ class Sight(ABC):
             self._senders.clear()
         self._stamp = stamp
         self._senders.add(sender)
-        return self.clock.at(stamp)
+        older = self.clock.older
+        found = self.clock.at(stamp, sender)
+        if found is None:
+            self._count(OLDER_FRAMES if self.clock.older > older else UNCONFIRMED_FRAMES, 1)
+        return found
 
-    def _note(self, identities: Iterable[Identity], time: float) -> None:
-        self._seen.update(dict.fromkeys(identities, time))
+    def _note(self, named: Iterable[Identity], slots: Iterable[int], time: float) -> None:
+        """Note robots of others as they are named, and those of the match that are believed."""
+        known = {self.layout.identity(slot) for slot in range(self.layout.config.n_robots)}
+        believed = [self.layout.identity(slot) for slot in slots]
+        self._seen.update(dict.fromkeys([*(set(named) - known), *believed], time))
+
+    def _count(self, reason: str, number: int) -> None:
+        if number:
+            self.counts[reason] += number
 
 
 class DetectionSight(Sight):
@@ -162,11 +185,16 @@ class DetectionSight(Sight):
         robots[:, 1:] = seen.robots[with_heading]
         balls = seen.balls[order, :2].astype(np.float32)
         near = [self._is_near(places) for places in (balls, robots[:, 1:3])]
-        self._tracker.take(time, balls[near[0]], robots[near[1]])
+        self._count("robots: without orientation", int((~seen.has_heading).sum()))
+        self._count(FAR_ROBOTS, int((~near[1]).sum()))
+        self._count(FAR_BALLS, int((~near[0]).sum()))
+        balls, robots = balls[near[0]], robots[near[1]]
+        self._tracker.take(time, balls, robots)
         self.has_ball = self._tracker.has_ball
         groups = ((BLUE, detection.robots_blue), (YELLOW, detection.robots_yellow))
         self._note(
             ((team, r.robot_id) for team, group in groups for r in group if r.HasField("robot_id")),
+            robots[:, 0].astype(np.intp).tolist(),
             time,
         )
         return time > before or self.frames == 1

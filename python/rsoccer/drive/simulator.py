@@ -108,7 +108,10 @@ class NetworkStepper(Stepper, Reader, SensingStepper, Closer):
             ConnectionError: something is out of sight for `Settings.patience`.
             RuntimeError: the simulator refuses all commands, or the guard has ended.
         """
-        self.connection.begin()
+        return self._read(out)
+
+    def _read(self, out: Floats, *, needs_all: bool = True) -> Doubles | None:
+        self.connection.begin(needs_all=needs_all)
         times = self._completed.read(self._rows.rows)
         self._finish(out)
         return times
@@ -151,7 +154,13 @@ class NetworkStepper(Stepper, Reader, SensingStepper, Closer):
 
 
 class UntouchedNetwork(NetworkStepper, Placer):
-    """Robots on a network whose play goes on as it is when a task wants bodies somewhere else."""
+    """Robots on a network whose play goes on as it is when a task wants bodies somewhere else.
+
+    The first match waits until all robots that are driven are in sight. Later ones go on with
+    robots that are absent, such as those that were substituted or carded.
+    """
+
+    _has_begun = False
 
     def place(
         self, worlds: Mask, rows: Floats, out: Floats, parameters: Floats | None = None
@@ -159,18 +168,23 @@ class UntouchedNetwork(NetworkStepper, Placer):
         """Begin with the state as it is; see `Placer.place`.
 
         Raises:
+            ConnectionError: there are no frames for `Settings.patience`, or in the first match
+                something is out of sight.
+            RuntimeError: the simulator refuses all commands, or the guard has ended.
             ValueError: factors on the numbers of models.
         """
         _check_parameters(parameters)
-        return self.read(out)
+        times = self._read(out, needs_all=not self._has_begun)
+        self._has_begun = True
+        return times
 
     def restart(self, worlds: Mask, rows: Floats, out: Floats) -> Doubles | None:
         """Go on with the state as it is; see `Placer.restart`."""
-        return self.read(out)
+        return self._read(out, needs_all=False)
 
     def reposition_balls(self, worlds: Mask, balls: Floats, out: Floats) -> Doubles | None:
         """Go on with the state as it is; see `Placer.reposition_balls`."""
-        return self.read(out)
+        return self._read(out, needs_all=False)
 
 
 class NetworkSimulator(NetworkStepper, Placer):

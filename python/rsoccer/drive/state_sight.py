@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import math
+import time
+from collections.abc import Callable, Iterable
 from typing import Final
+
+import numpy as np
 
 from rsoccer._core import ROBOT_COLUMNS
 from rsoccer.arrays import Floats
 from rsoccer.drive.peers import Identity
-from rsoccer.drive.sight import DetectionSight, Sight
+from rsoccer.drive.sight import FAR_BALLS, FAR_ROBOTS, DetectionSight, Sight
 from rsoccer.frame import Frame
 from rsoccer.game import BLUE, YELLOW
 from rsoccer.protocols import fira, tracker
@@ -18,6 +22,9 @@ from rsoccer.protocols.parsing import parse
 from rsoccer.protocols.schemas import fira_pb2, tracker_pb2
 from rsoccer.protocols.tracked import Tracked
 
+SILENT_SECONDS: Final = 0.5
+"""Time without a packet of a tracker after which another one is taken, s, as trackers that start
+again have another name."""
 _ABSENT: Final = ROBOT_COLUMNS.index("absent")
 
 
@@ -36,10 +43,20 @@ class StateSight(Sight):
     def _nothing(self) -> Frame:
         return Tracked.begin(self.layout, None, 0.0).frame
 
-    def _keep(self, tracked: Tracked, identities: Iterable[Identity], time: float) -> None:
-        self._frame = tracked.frame
-        self.has_ball |= tracked.ball
-        self._note(identities, time)
+    def _keep(self, tracked: Tracked, named: Iterable[Identity], time: float) -> None:
+        """Keep a state; bodies that are not believed stay as they were."""
+        frame, last = tracked.frame, self._frame
+        near = self._is_near(frame.robots.position[0])
+        far, ball = tracked.seen & ~near, tracked.ball
+        frame.robots.data[0, far] = last.robots.data[0, far]
+        self._count(FAR_ROBOTS, int(far.sum()))
+        if ball and not self._is_near(frame.ball.position)[0]:
+            frame.ball.data[:] = last.ball.data
+            self._count(FAR_BALLS, 1)
+            ball = False
+        self._frame = frame
+        self.has_ball |= ball
+        self._note(named, np.flatnonzero(tracked.seen & near).tolist(), time)
 
     def read(self, out: Floats) -> None:
         """Write the newest state; see `Sight.read`."""
@@ -57,20 +74,33 @@ class StateSight(Sight):
 
 
 class TrackerSight(StateSight):
-    """Frames of the tracker that is heard first."""
+    """Frames of one tracker: the one that is heard first, and another once it is silent."""
 
-    _source: str | None = None
+    def __init__(self, layout: WireLayout, clock: Callable[[], float] = time.monotonic) -> None:
+        """Begin before the first frame.
+
+        Args:
+            layout: sides and numbers on the wire.
+            clock: time on the wall, s.
+        """
+        super().__init__(layout)
+        self._clock = clock
+        self._source: str | None = None
+        self._heard_at = -math.inf
 
     def take(self, data: bytes) -> bool:
         """Take in a packet of a tracker; see `Sight.take`."""
         message = parse(tracker_pb2.Packet, data)
         if not message.HasField("tracked_frame"):
             return False
-        if self._source is None:
-            self._source = message.uuid
+        wall = self._clock()
         if message.uuid != self._source:
-            name = message.source_name or message.uuid
-            raise MessageError(Code.UNREADABLE, f"tracker: expected one source, got {name} too")
+            if wall - self._heard_at <= SILENT_SECONDS:
+                name = message.source_name or message.uuid
+                raise MessageError(Code.UNREADABLE, f"tracker: expected one source, got {name} too")
+            self._count("tracker: another source", int(self._source is not None))
+            self._source = message.uuid
+        self._heard_at = wall
         before, frame = self.clock.now, message.tracked_frame
         found = self._time(frame.timestamp)
         if found is None:
@@ -109,14 +139,17 @@ class FiraSight(StateSight):
         return found[0] > before or self.frames == 1
 
 
-def make_sight(layout: WireLayout, league: str, source: str) -> Sight:
+def make_sight(
+    layout: WireLayout, league: str, source: str, clock: Callable[[], float] = time.monotonic
+) -> Sight:
     """Return what reads the frames of a connection.
 
     Args:
         layout: the match.
         league: "ssl" or "vsss".
         source: "vision" or "tracker".
+        clock: time on the wall, s.
     """
     if league == "vsss":
         return FiraSight(layout)
-    return DetectionSight(layout) if source == "vision" else TrackerSight(layout)
+    return DetectionSight(layout) if source == "vision" else TrackerSight(layout, clock)
