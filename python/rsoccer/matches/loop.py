@@ -67,7 +67,7 @@ class Listener(Protocol):
         """Take note that an episode of the world has begun."""
 
     def add(self, outcome: Outcome) -> None:
-        """Take note of a step of all worlds.
+        """Take note of a step of all worlds in which the followed one has played.
 
         Args:
             outcome: result of the step.
@@ -646,7 +646,8 @@ class Matches:
         final = self._observed()
         outcome.observations = outcome.final_observations = final
         for listener in self._listeners:
-            listener.add(outcome)
+            if listener.world not in self._waited:  # it has not played, and perhaps begun
+                listener.add(outcome)
         ended = outcome.ended
         if not np.count_nonzero(ended):
             return
