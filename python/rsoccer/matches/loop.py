@@ -66,6 +66,9 @@ class Listener(Protocol):
     def begin(self) -> None:
         """Take note that an episode of the world has begun."""
 
+    def begin_here(self) -> None:
+        """Take note that the world goes on from another state, within an episode."""
+
     def add(self, outcome: Outcome) -> None:
         """Take note of a step of all worlds in which the followed one has played.
 
@@ -386,6 +389,11 @@ class Matches:
             TypeError: a simulator that has no `restore`.
             ValueError: a state of other matches. Nothing has changed.
         """
+        self._load(state)
+        self._announce_state()
+
+    def _load(self, state: Mapping[str, Array]) -> None:
+        """Overwrite all state, unknown to those who follow the matches."""
         times = self.play.times
         self.play.times = np.zeros(self.worlds) if "times" in state else None
         try:
@@ -453,6 +461,8 @@ class Matches:
     def attach(self, listener: Listener) -> None:
         """Let an object follow each step, before worlds reset, and each begin of an episode.
 
+        It also learns of states that `load_state_dict` and `take_over` put in place.
+
         Args:
             listener: such as a `Recorder`.
         """
@@ -487,14 +497,23 @@ class Matches:
             ValueError: a state of another task, of other senses or of another number of worlds.
                 These matches have begun other episodes.
         """
-        self.reset(seed)
-        anew = self._state()
-        names = {*anew.shared}
-        kept = {name: array for name, array in anew.read().items() if name not in names}
-        self.load_state_dict({**{n: a for n, a in state.items() if n in names}, **kept})
+        listeners, self._listeners = self._listeners, []  # this reset is no begin of an episode
+        try:
+            self.reset(seed)
+        finally:
+            self._listeners = listeners
+        try:
+            anew = self._state()
+            names = {*anew.shared}
+            kept = {name: array for name, array in anew.read().items() if name not in names}
+            self._load({**{n: a for n, a in state.items() if n in names}, **kept})
+        except BaseException:
+            self._announce(np.arange(self.worlds))
+            raise
         self._returns[...] = 0.0
         self._observe()
         self._stack.begin(self._past, slice(None), self._learners.select(self._observations))
+        self._announce_state()
         return self._observed()
 
     def close(self) -> None:
@@ -713,6 +732,13 @@ class Matches:
         for listener in self._listeners:
             if listener.world in worlds:
                 listener.begin()
+
+    def _announce_state(self) -> None:
+        """Let those who follow worlds that play know that these go on from another state."""
+        playing = self._begun & ~self._done
+        for listener in self._listeners:
+            if playing[listener.world]:
+                listener.begin_here()
 
     def _observe_start(self, worlds: Indices, part: Play) -> None:
         """Compute the first observations of worlds that the simulator has just placed."""
