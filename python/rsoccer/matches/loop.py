@@ -52,6 +52,8 @@ from rsoccer.task import Task
 AUTORESETS: Final = ("same_step", "next_step", "disabled")
 
 Indices = NDArray[np.intp]
+_STARTS: Final = "starts"
+"""Name in a state of the states in which episodes begin; missing if they are the task's."""
 _NO_WORLDS: Final = np.empty(0, np.intp)
 Seed = int | Sequence[int | None] | None
 """Seed of the first world, or one seed per world; None: random streams continue."""
@@ -372,15 +374,26 @@ class Matches:
     def state_dict(self) -> dict[str, Array]:
         """Return copies of all state by name; `load_state_dict` continues exactly from it.
 
+        The task, its options and the policies are no part of it. Matches to load it have the same
+        ones, after `change_options` and `change_controllers` too.
+
+        Returns:
+            Arrays by name, the states of `start_from` included, as "starts", if it has set any.
+
         Raises:
             RuntimeError: the matches are inconsistent.
             TypeError: a simulator that has no `snapshot`.
         """
         self._consistency.check()
-        return self._state().read()
+        starts = {} if self._start_rows is None else {_STARTS: self._start_rows.copy()}
+        return self._state().read() | starts
 
     def load_state_dict(self, state: Mapping[str, Array]) -> None:
         """Continue from a state of matches with the same task, controllers and number of worlds.
+
+        The states of `start_from` are those of the saved matches. Options of the task and policies
+        are no part of a state and stay as they are here, so that changes by `change_options` and
+        `change_controllers` have to be made here too, before this call.
 
         Args:
             state: what `state_dict` returned.
@@ -394,13 +407,18 @@ class Matches:
 
     def _load(self, state: Mapping[str, Array]) -> None:
         """Overwrite all state, unknown to those who follow the matches."""
+        starts = None
+        if _STARTS in state:
+            self._starts.check_rows()
+            starts = changes.saved_starts(self.task, state[_STARTS])
         times = self.play.times
         self.play.times = np.zeros(self.worlds) if "times" in state else None
         try:
-            self._state().write(state)
+            self._state().write({name: a for name, a in state.items() if name != _STARTS})
         except BaseException:
             self.play.times = times
             raise
+        self._start_rows = starts
         self._final_rows = None
         self._all_begun = bool(self._begun.all())
         self.play.expire_views()
@@ -481,7 +499,7 @@ class Matches:
     def take_over(self, state: Mapping[str, Array], seed: Seed = None) -> Floats:
         """Continue from a state of matches of the same task with other controllers.
 
-        Bodies, clock, score, rules and senses go on. Policies begin anew, with the memory that they
+        Bodies, clock, score, rules, senses and states of `start_from` go on. Policies begin anew, with the memory that they
         have at the start of an episode, and so does the history of learners. Returns of the
         episode count from here.
 
@@ -504,7 +522,7 @@ class Matches:
             self._listeners = listeners
         try:
             anew = self._state()
-            names = {*anew.shared}
+            names = {*anew.shared, _STARTS}
             kept = {name: array for name, array in anew.read().items() if name not in names}
             self._load({**{n: a for n, a in state.items() if n in names}, **kept})
         except BaseException:
