@@ -86,6 +86,8 @@ def _parts(module: Any) -> Iterator[Any]:  # noqa: ANN401
         if hasattr(inner, "__iter__"):
             for part in inner:
                 yield from _parts(part)
+        elif inner is module:  # such as exploration modules, which are refused as layers
+            yield module
         else:
             yield from _parts(inner)
     else:
@@ -161,7 +163,7 @@ def _deviation(part: Any) -> tuple[Any, Deviation | None]:  # noqa: ANN401
 def _normalization(env: object) -> Normalization:
     """Normalization by the transforms `ObservationNorm` of an environment."""
     mean, std = np.float64(0.0), np.float64(1.0)
-    for each in chain(env):
+    for each in reversed(list(chain(env))):  # the innermost transforms first
         given: Any = getattr(each, "transform", None)
         transforms: list[Any] = list(given) if hasattr(given, "__getitem__") else [given]
         for transform in transforms:
