@@ -499,9 +499,9 @@ class Matches:
     def take_over(self, state: Mapping[str, Array], seed: Seed = None) -> Floats:
         """Continue from a state of matches of the same task with other controllers.
 
-        Bodies, clock, score, rules, senses and states of `start_from` go on. Policies begin anew, with the memory that they
-        have at the start of an episode, and so does the history of learners. Returns of the
-        episode count from here.
+        Bodies, clock, score, rules, senses and states of `start_from` go on. Policies begin anew,
+        with the memory that they have at the start of an episode, and so does the history of
+        learners. Returns of the episode count from here.
 
         Args:
             state: what `state_dict` of the other matches returned.

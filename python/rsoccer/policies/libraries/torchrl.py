@@ -45,10 +45,13 @@ def from_torchrl(
     Args:
         actor: the actor.
         task: the task of the training, or its name; None for that of `env`.
-        env: the environment; transforms `ObservationNorm` of it give the normalization.
+        env: the environment; transforms `ObservationNorm` of it give the normalization. An actor
+            does not hold it: without `env` the policy plays without normalization, and nothing
+            warns of it.
         agent: index among the robots of a `MultiAgentMLP` without shared parameters, whose network
             is meant.
-        **settings: further arguments of `Network.from_layers`, such as `action_repeat`.
+        **settings: further arguments of `Network.from_layers`, such as `action_repeat`, or `mean`,
+            `std` and `clip` of a normalization.
 
     Returns:
         A network with a copy of the weights.
