@@ -34,6 +34,15 @@ def test_scores_are_those_of_evaluate_at_intervals(tmp_path: Path) -> None:
     assert "110 SAMPLES" in measured.pages[1].read_text()
 
 
+def test_a_count_that_begins_again_is_a_new_training() -> None:
+    measured = MatchEvaluation(every=100, matches=1)
+    policy = make_policy("best", "SSLGoToBall-v0")
+    counts = (0, 60, 120, 180, 8, 60, 108, 150)
+    due = [bool(measured(policy, samples)) for samples in counts]
+    assert due == [True, False, True, False, True, False, True, False]
+    assert [measured.is_due(samples) for samples in (160, 208)] == [False, True]
+
+
 def test_tasks_of_one_team_have_no_opponents() -> None:
     measured = MatchEvaluation(matches=1)
     scores = measured(make_policy("best", "SSLGoToBall-v0"), 0)

@@ -96,14 +96,20 @@ class MatchEvaluation:
         self.threads, self.sensing = threads, sensing
         self.results: list[tuple[int, list[Evaluation]]] = []
         self.pages: list[Path] = []
-        self._due_at = 0
+        self._due_at, self._last_samples = 0, 0
 
     def is_due(self, samples: int) -> bool:
         """Return whether the policy should be played: at first, and `every` samples later.
 
+        A smaller number than the one before belongs to a training that has begun again, as a second
+        `learn` of Stable-Baselines3 does; the policy is then played at once.
+
         Args:
             samples: samples of the training so far.
         """
+        if samples < self._last_samples:
+            self._due_at = 0
+        self._last_samples = samples
         return samples >= self._due_at
 
     def __call__(self, policy: Policy | Callable[[], Policy], samples: int) -> dict[str, float]:

@@ -230,3 +230,49 @@ def test_an_attached_recorder_sees_whole_episodes_beside_automatic_resets() -> N
     assert all(np.array_equal(replay.terms[name], expected.terms[name]) for name in replay.terms)
     with pytest.raises(ValueError, match="or attach=True"):
         Recorder(matches)
+
+
+def test_a_saved_state_has_the_given_starts() -> None:
+    matches, other = begun(max_steps=4), Matches(TASK, 2, 9)
+    other.reset()
+    matches.start_from(other.frame.rows.copy())
+    stepped(matches, 2)
+    state = matches.state_dict()
+    after = stepped(matches, 9)
+    resumed = Matches(TASK, N, 1, max_steps=4)
+    resumed.load_state_dict(state)
+    again = stepped(resumed, 9)
+    for one, two in zip(after, again, strict=True):
+        assert np.array_equal(one.observations, two.observations)
+    taken = Matches(TASK, N, 1, max_steps=4)
+    taken.take_over(state, 1)
+    stepped(taken, 2)
+    given = {row.tobytes() for row in np.float32(other.frame.rows)}
+    assert all(row.tobytes() in given for row in np.float32(taken.frame.rows))
+
+
+def test_a_saved_state_without_starts_brings_those_of_the_task_back() -> None:
+    matches = begun(max_steps=4)
+    state = matches.state_dict()
+    after = stepped(matches, 5)[-1].observations
+    matches.start_from(matches.frame.rows[0].copy())
+    matches.load_state_dict(state)
+    assert np.array_equal(stepped(matches, 5)[-1].observations, after)
+
+
+def test_saved_starts_are_checked() -> None:
+    matches = begun()
+    state, before = matches.state_dict(), matches.state_dict()
+    rows = matches.frame.rows.copy()
+    stepped(matches, 1)
+    now = matches.frame.rows.copy()
+    for bad, message in (
+        (rows[:, :-1], "shape"),
+        (np.full_like(rows, np.nan), "finite"),
+        (rows.astype(str), "rows"),
+    ):
+        with pytest.raises(ValueError, match=rf"state: .*'starts': .*{message}"):
+            matches.load_state_dict({**state, "starts": bad})
+        assert np.array_equal(matches.frame.rows, now)
+    matches.load_state_dict(before)
+    assert np.array_equal(matches.frame.rows, rows)

@@ -70,6 +70,17 @@ def observations(size: int = SIZE) -> np.ndarray:
     return np.random.default_rng(0).uniform(-3.0, 3.0, (50, size)).astype(np.float32)
 
 
+def test_a_normalization_of_ones_own_applies() -> None:
+    agent, inputs = PpoAgent(), observations()
+    mean, std = np.linspace(-1.0, 1.0, SIZE), np.linspace(0.1, 2.0, SIZE)
+    for clip in (10.0, 1.5):
+        network = from_cleanrl(agent, TASK, mean=mean, std=std, clip=clip)
+        normalized = ((inputs - mean) / std).clip(-clip, clip).astype(np.float32)
+        assert np.abs(normalized).max() == clip
+        expected = agent.actor_mean(torch.from_numpy(normalized)).clamp(-1, 1).detach()
+        np.testing.assert_allclose(network.mean_actions(inputs), expected, rtol=0, atol=2e-6)
+
+
 def test_gaussians_of_ppo() -> None:
     torch.manual_seed(0)
     agent, inputs = PpoAgent(), observations()

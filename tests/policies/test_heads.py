@@ -44,6 +44,13 @@ def test_other_deviations_are_refused(text: str, message: str) -> None:
         Deviation.from_text(text)
 
 
+def test_deviations_of_numbers_of_numpy_have_a_text_that_can_be_read() -> None:
+    deviation = Deviation("exp", (np.float64(-20.0), np.float32(2.0)))
+    assert deviation.text == "exp -20 2"
+    assert Deviation.from_text(deviation.text) == deviation
+    assert Deviation("softplus", (np.int64(1), 0, np.float32(0.25))).text == "softplus 1 0 0.25"
+
+
 def test_gaussians_are_clipped_and_squashed_ones_are_not() -> None:
     outputs = np.array([[[3.0, -0.5]]], np.float32)
     assert Head("gaussian", 2).mean_actions(outputs.copy()).tolist() == [[[1.0, -0.5]]]

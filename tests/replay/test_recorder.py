@@ -148,3 +148,22 @@ def test_a_duration_that_is_not_positive_is_refused(seconds: float) -> None:
 def test_robots_without_a_policy_are_refused() -> None:
     with pytest.raises(ValueError, match="controllers: expected a policy for every robot"):
         record_replay(rsoccer.make_task("VSS-v0"))
+
+
+@pytest.mark.parametrize("autoreset", ["same_step", "next_step"])
+def test_attached_records_have_a_frame_for_each_step_and_one_for_the_start(autoreset: str) -> None:
+    matches = Matches("VSS-v0", 2, seed=1, autoreset=autoreset, max_steps=5)
+    recorder = Recorder(matches, 1, attach=True)
+    matches.reset()
+    firsts, played = [matches.frame.rows[1].copy()], 0
+    for _ in range(20):
+        waited = matches.done[1]
+        outcome = matches.step(zeros(matches))
+        played += not waited
+        if waited or (autoreset == "same_step" and outcome.ended[1]):
+            firsts.append(matches.frame.rows[1].copy())
+    replay = recorder.replay()
+    assert len(replay.episodes) == len(firsts) >= 4
+    assert [len(range(each.start, each.stop)) for each in replay.episodes[:3]] == [6, 6, 6]
+    assert len(replay) == played + len(firsts)
+    assert same(replay.rows[replay.starts], np.stack(firsts))

@@ -18,15 +18,20 @@ from tensordict.nn import (  # noqa: E402
     AddStateIndependentNormalScale,
     NormalParamExtractor,
     TensorDictModule,
+    TensorDictSequential,
 )
 from torch import nn  # noqa: E402
+from torchrl.data import Bounded  # noqa: E402
 from torchrl.envs import ObservationNorm, TransformedEnv  # noqa: E402
 from torchrl.envs.utils import ExplorationType, set_exploration_type  # noqa: E402
 from torchrl.modules import (  # noqa: E402
     MLP,
+    AdditiveGaussianModule,
+    EGreedyModule,
     IndependentNormal,
     MultiAgentMLP,
     ProbabilisticActor,
+    QValueModule,
     TanhNormal,
 )
 
@@ -155,6 +160,32 @@ def test_observation_norm_is_part_of_the_policy(standard_normal: bool) -> None:
     expected = acted(actor, normalized, ExplorationType.DETERMINISTIC)
     np.testing.assert_allclose(network.mean_actions(plain), expected, rtol=0, atol=2e-6)
     assert network.task_name == TASK
+
+
+def test_observation_norms_of_nested_environments_apply_from_the_inside() -> None:
+    o, _ = sizes()
+    rng = torch.Generator().manual_seed(0)
+    key = ("blue", "observation")
+    env: Any = SoccerEnv(TASK, 4, seed=0)
+    for _ in range(2):
+        loc, scale = torch.rand(o, generator=rng), torch.rand(o, generator=rng) + 0.5
+        norm = ObservationNorm(loc, scale, in_keys=[key], standard_normal=True)
+        env = TransformedEnv(env, norm, auto_unwrap=False)
+    assert isinstance(env.base_env, TransformedEnv)
+    actor = actor_of(nn.Sequential(multi_agent(), NormalParamExtractor()))
+    plain = SoccerEnv(TASK, 4, seed=0).reset()[key].numpy()
+    expected = acted(actor, env.reset()[key].numpy(), ExplorationType.DETERMINISTIC)
+    actions = from_torchrl(actor, env=env).mean_actions(plain)
+    np.testing.assert_allclose(actions, expected, rtol=0, atol=2e-6)
+
+
+def test_modules_of_exploration_and_choice_are_refused() -> None:
+    o, a = sizes()
+    body = TensorDictModule(MLP(o, a, num_cells=[8]), ["observation"], ["action"])
+    spec = Bounded(-1.0, 1.0, (a,))
+    for module in (EGreedyModule(spec), AdditiveGaussianModule(spec), QValueModule("categorical")):
+        with pytest.raises(ValueError, match=type(module).__name__):
+            from_torchrl(TensorDictSequential(body, module), TASK)
 
 
 def test_an_actor_plays() -> None:

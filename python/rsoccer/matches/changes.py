@@ -206,3 +206,22 @@ def start_rows(task: Task, rows: object) -> Floats:
     scratch = Simulator(task.config, len(states), Threads(1))
     scratch.place(np.ones(len(states), np.bool_), states, placed)
     return states
+
+
+def saved_starts(task: Task, rows: object) -> Floats:
+    """Return checked initial states of episodes of a saved state of matches.
+
+    Args:
+        task: the task that is played.
+        rows: what has been saved.
+
+    Returns:
+        (m, row) float32, a copy.
+
+    Raises:
+        ValueError: not what `start_rows` has returned.
+    """
+    try:
+        return start_rows(task, rows)
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"state: expected states of this task for 'starts': {error}") from error

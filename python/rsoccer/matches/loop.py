@@ -52,6 +52,8 @@ from rsoccer.task import Task
 AUTORESETS: Final = ("same_step", "next_step", "disabled")
 
 Indices = NDArray[np.intp]
+_STARTS: Final = "starts"
+"""Name in a state of the states in which episodes begin; missing if they are the task's."""
 _NO_WORLDS: Final = np.empty(0, np.intp)
 Seed = int | Sequence[int | None] | None
 """Seed of the first world, or one seed per world; None: random streams continue."""
@@ -66,8 +68,11 @@ class Listener(Protocol):
     def begin(self) -> None:
         """Take note that an episode of the world has begun."""
 
+    def begin_here(self) -> None:
+        """Take note that the world goes on from another state, within an episode."""
+
     def add(self, outcome: Outcome) -> None:
-        """Take note of a step of all worlds.
+        """Take note of a step of all worlds in which the followed one has played.
 
         Args:
             outcome: result of the step.
@@ -369,15 +374,26 @@ class Matches:
     def state_dict(self) -> dict[str, Array]:
         """Return copies of all state by name; `load_state_dict` continues exactly from it.
 
+        The task, its options and the policies are no part of it. Matches to load it have the same
+        ones, after `change_options` and `change_controllers` too.
+
+        Returns:
+            Arrays by name, the states of `start_from` included, as "starts", if it has set any.
+
         Raises:
             RuntimeError: the matches are inconsistent.
             TypeError: a simulator that has no `snapshot`.
         """
         self._consistency.check()
-        return self._state().read()
+        starts = {} if self._start_rows is None else {_STARTS: self._start_rows.copy()}
+        return self._state().read() | starts
 
     def load_state_dict(self, state: Mapping[str, Array]) -> None:
         """Continue from a state of matches with the same task, controllers and number of worlds.
+
+        The states of `start_from` are those of the saved matches. Options of the task and policies
+        are no part of a state and stay as they are here, so that changes by `change_options` and
+        `change_controllers` have to be made here too, before this call.
 
         Args:
             state: what `state_dict` returned.
@@ -386,13 +402,23 @@ class Matches:
             TypeError: a simulator that has no `restore`.
             ValueError: a state of other matches. Nothing has changed.
         """
+        self._load(state)
+        self._announce_state()
+
+    def _load(self, state: Mapping[str, Array]) -> None:
+        """Overwrite all state, unknown to those who follow the matches."""
+        starts = None
+        if _STARTS in state:
+            self._starts.check_rows()
+            starts = changes.saved_starts(self.task, state[_STARTS])
         times = self.play.times
         self.play.times = np.zeros(self.worlds) if "times" in state else None
         try:
-            self._state().write(state)
+            self._state().write({name: a for name, a in state.items() if name != _STARTS})
         except BaseException:
             self.play.times = times
             raise
+        self._start_rows = starts
         self._final_rows = None
         self._all_begun = bool(self._begun.all())
         self.play.expire_views()
@@ -453,6 +479,8 @@ class Matches:
     def attach(self, listener: Listener) -> None:
         """Let an object follow each step, before worlds reset, and each begin of an episode.
 
+        It also learns of states that `load_state_dict` and `take_over` put in place.
+
         Args:
             listener: such as a `Recorder`.
         """
@@ -471,9 +499,9 @@ class Matches:
     def take_over(self, state: Mapping[str, Array], seed: Seed = None) -> Floats:
         """Continue from a state of matches of the same task with other controllers.
 
-        Bodies, clock, score, rules and senses go on. Policies begin anew, with the memory that they
-        have at the start of an episode, and so does the history of learners. Returns of the
-        episode count from here.
+        Bodies, clock, score, rules, senses and states of `start_from` go on. Policies begin anew,
+        with the memory that they have at the start of an episode, and so does the history of
+        learners. Returns of the episode count from here.
 
         Args:
             state: what `state_dict` of the other matches returned.
@@ -487,14 +515,23 @@ class Matches:
             ValueError: a state of another task, of other senses or of another number of worlds.
                 These matches have begun other episodes.
         """
-        self.reset(seed)
-        anew = self._state()
-        names = {*anew.shared}
-        kept = {name: array for name, array in anew.read().items() if name not in names}
-        self.load_state_dict({**{n: a for n, a in state.items() if n in names}, **kept})
+        listeners, self._listeners = self._listeners, []  # this reset is no begin of an episode
+        try:
+            self.reset(seed)
+        finally:
+            self._listeners = listeners
+        try:
+            anew = self._state()
+            names = {*anew.shared, _STARTS}
+            kept = {name: array for name, array in anew.read().items() if name not in names}
+            self._load({**{n: a for n, a in state.items() if n in names}, **kept})
+        except BaseException:
+            self._announce(np.arange(self.worlds))
+            raise
         self._returns[...] = 0.0
         self._observe()
         self._stack.begin(self._past, slice(None), self._learners.select(self._observations))
+        self._announce_state()
         return self._observed()
 
     def close(self) -> None:
@@ -646,7 +683,8 @@ class Matches:
         final = self._observed()
         outcome.observations = outcome.final_observations = final
         for listener in self._listeners:
-            listener.add(outcome)
+            if listener.world not in self._waited:  # it has not played, and perhaps begun
+                listener.add(outcome)
         ended = outcome.ended
         if not np.count_nonzero(ended):
             return
@@ -712,6 +750,13 @@ class Matches:
         for listener in self._listeners:
             if listener.world in worlds:
                 listener.begin()
+
+    def _announce_state(self) -> None:
+        """Let those who follow worlds that play know that these go on from another state."""
+        playing = self._begun & ~self._done
+        for listener in self._listeners:
+            if playing[listener.world]:
+                listener.begin_here()
 
     def _observe_start(self, worlds: Indices, part: Play) -> None:
         """Compute the first observations of worlds that the simulator has just placed."""

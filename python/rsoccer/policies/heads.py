@@ -71,6 +71,8 @@ class Deviation:
             raise ValueError(
                 f"deviation: expected an offset and a least of at least 0, got {self.numbers}"
             )
+        # NumPy's numbers have another text.
+        object.__setattr__(self, "numbers", tuple(float(number) for number in self.numbers))
 
     @classmethod
     def from_text(cls, text: str) -> Self:

@@ -153,6 +153,9 @@ def make_with(name: str, maker: Maker, task: Task, **arguments: float) -> Policy
         task: the task that is played.
         **arguments: a skill, if one was given.
 
+    Returns:
+        What the maker returns.
+
     Raises:
         RuntimeError: the maker raises an error other than ValueError.
         TypeError: the maker returns something else than a policy.

@@ -32,8 +32,9 @@ def what_if(
     Example:
         >>> from rsoccer.replay import record_replay, what_if
         >>> replay = record_replay(controllers={"all": "chase"}, seconds=2.0)
-        >>> what_if(replay, 20, {"blue": "zero", "yellow": "chase"}, seconds=1.0).seconds
-        1.0
+        >>> other = what_if(replay, 20, {"blue": "zero", "yellow": "chase"}, seconds=1.0)
+        >>> bool((other.rows[0] == replay.rows[20]).all())
+        True
 
     Args:
         replay: the replay.

@@ -49,7 +49,7 @@ pub(crate) struct Senses {
     timeout: Option<u64>,
     /// Number of looks at a state that was placed.
     looks: u64,
-    /// What watches the field: for both teams, or for each of them.
+    /// Vision systems that watch the field: one for both teams, or one for each of them.
     visions: Vec<Vision>,
     reports: Reports,
     link: Link,

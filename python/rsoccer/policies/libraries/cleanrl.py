@@ -51,7 +51,8 @@ def from_cleanrl(
         agent: the module: `Agent`, `Actor` or `QNetwork` of the script.
         task: the task of the training, or its name; None for that of `envs`.
         envs: the environments; a `NormalizeObservation` of Gymnasium among their wrappers gives the
-            normalization.
+            normalization. An agent does not hold it: without `envs` the policy plays without
+            normalization, and nothing warns of it.
         clip: bound of normalized observations, above 0.
         **settings: further arguments of `Network.from_layers`, such as `action_repeat`, or `mean`
             and `std` of a normalization of another form.
@@ -63,6 +64,8 @@ def from_cleanrl(
         TypeError: an unknown setting.
         ValueError: no task, an agent of another form, or one that does not fit the task.
     """
+    if not settings.keys().isdisjoint(("mean", "std")):
+        settings["clip"] = clip
     found = task_of(task, envs)
     actor = _actor(agent)
     return actor.network(found, _normalization(envs, clip), settings)

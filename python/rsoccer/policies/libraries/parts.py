@@ -59,7 +59,8 @@ class Actor:
         Args:
             task: the task of the training.
             normalization: that of the observations.
-            settings: further arguments of `Network.from_layers`.
+            settings: further arguments of `Network.from_layers`, which go before those of the
+                model and of the normalization.
 
         Raises:
             TypeError: an unknown setting.
@@ -68,7 +69,13 @@ class Actor:
         from rsoccer.policies.layers import read_layers
 
         pairs, activation = read_layers(self.layers, self.activation)
-        given = {"history": history_of(task, int(pairs[0][0].shape[1])), **settings}
+        given: dict[str, Any] = {
+            "history": history_of(task, int(pairs[0][0].shape[1])),
+            "mean": normalization.mean,
+            "std": normalization.std,
+            "clip": normalization.clip,
+            **settings,
+        }
         return Network.from_layers(
             task,
             pairs,
@@ -76,9 +83,6 @@ class Actor:
             activation=activation,
             head=self.head,
             deviation=self.deviation,
-            mean=normalization.mean,
-            std=normalization.std,
-            clip=normalization.clip,
             **given,
         )
 

@@ -35,12 +35,15 @@ def from_rllib(
     does.
 
     Args:
-        algorithm: the `Algorithm`, or its `RLModule`.
+        algorithm: the `Algorithm`, or its `RLModule`. A module does not hold the statistics of a
+            `MeanStdFilter`: of a module alone the policy plays without normalization, and nothing
+            warns of it.
         task: the task of the training, or its name; None for that of the algorithm's `env_config`.
         module: name of the module, such as "shared"; None for the only one.
         agent: robot whose statistics of a `MeanStdFilter` apply, such as "blue_0"; None for the
             only ones.
-        **settings: further arguments of `Network.from_layers`, such as `action_repeat`.
+        **settings: further arguments of `Network.from_layers`, such as `action_repeat`, or `mean`,
+            `std` and `clip` of a normalization.
 
     Returns:
         A network with a copy of the weights.

@@ -37,8 +37,10 @@ def from_sb3(
         model: the model, with "MlpPolicy".
         task: the task of the training, or its name; None for that of the model's environment.
         normalize: a `VecNormalize` whose statistics of observations apply; None for the one around
-            the model's environment, if there is one.
-        **settings: further arguments of `Network.from_layers`, such as `action_repeat`.
+            the model's environment. A model that was loaded without its environment holds none: the
+            policy then plays without normalization, and nothing warns of it.
+        **settings: further arguments of `Network.from_layers`, such as `action_repeat`, or `mean`,
+            `std` and `clip` of a normalization.
 
     Returns:
         A network with a copy of the weights.

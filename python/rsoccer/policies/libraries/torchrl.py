@@ -45,10 +45,13 @@ def from_torchrl(
     Args:
         actor: the actor.
         task: the task of the training, or its name; None for that of `env`.
-        env: the environment; transforms `ObservationNorm` of it give the normalization.
+        env: the environment; transforms `ObservationNorm` of it give the normalization. An actor
+            does not hold it: without `env` the policy plays without normalization, and nothing
+            warns of it.
         agent: index among the robots of a `MultiAgentMLP` without shared parameters, whose network
             is meant.
-        **settings: further arguments of `Network.from_layers`, such as `action_repeat`.
+        **settings: further arguments of `Network.from_layers`, such as `action_repeat`, or `mean`,
+            `std` and `clip` of a normalization.
 
     Returns:
         A network with a copy of the weights.
@@ -86,6 +89,8 @@ def _parts(module: Any) -> Iterator[Any]:  # noqa: ANN401
         if hasattr(inner, "__iter__"):
             for part in inner:
                 yield from _parts(part)
+        elif inner is module:  # such as exploration modules, which are refused as layers
+            yield module
         else:
             yield from _parts(inner)
     else:
@@ -161,7 +166,7 @@ def _deviation(part: Any) -> tuple[Any, Deviation | None]:  # noqa: ANN401
 def _normalization(env: object) -> Normalization:
     """Normalization by the transforms `ObservationNorm` of an environment."""
     mean, std = np.float64(0.0), np.float64(1.0)
-    for each in chain(env):
+    for each in reversed(list(chain(env))):  # the innermost transforms first
         given: Any = getattr(each, "transform", None)
         transforms: list[Any] = list(given) if hasattr(given, "__getitem__") else [given]
         for transform in transforms:
