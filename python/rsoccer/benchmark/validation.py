@@ -10,8 +10,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from rsoccer._core import build_info
-from rsoccer.benchmark.entry import FORMAT, Entry, Row, digest
-from rsoccer.benchmark.measuring import measured
+from rsoccer.benchmark.entry import FORMAT, Entry, Row
 from rsoccer.benchmark.protocol import MATCHES, SEED, TASKS, rows_of
 from rsoccer.registry import make_task
 
@@ -175,42 +174,3 @@ def _completeness(values: Mapping[str, Any]) -> Iterator[str]:
         yield "tasks: expected rows of at least one task, got none"
     for task in sorted({*values["tasks"]} & {*values["refused"]}):
         yield f"{task}: expected rows or a reason, got both"
-
-
-def replayed(entry: Entry, task: str, threads: int | None = None) -> list[str]:
-    """Play the matches of a task again and compare the scores.
-
-    Equal physics gives equal matches, but the last bits of a network's actions may differ between
-    machines. A score that lies in the interval of the row is therefore taken as the same.
-
-    Args:
-        entry: a valid entry.
-        task: name of a task that it has rows of.
-        threads: threads of the simulator; by default one per available processor.
-
-    Returns:
-        The rows whose score is another one, in words.
-
-    Raises:
-        ValueError: the entry has no rows of the task, is of another version of the physics, or of
-            another content of the policy file.
-        FileNotFoundError: the policy is a file that is not here.
-        ImportError: the policy is code that is not here.
-    """
-    if task not in entry.tasks:
-        raise ValueError(f"replay: expected one of {list(entry.tasks)}, got {task!r}")
-    physics = int(build_info()["physics"])
-    if not is_current(entry):
-        raise ValueError(f"replay: expected physics {physics}, got {entry.versions['physics']}")
-    if entry.digest != digest(entry.policy):
-        raise ValueError(f"replay: {entry.policy} is not the file that was measured")
-    differing = []
-    for row in entry.tasks[task]:
-        opponent = None if row.opponent == "-" else row.opponent
-        again = measured(entry.policy, task, opponent, row.condition, entry.matches, threads)
-        if not row.low <= again.score <= row.high:
-            differing.append(
-                f"{task}, opponent {row.opponent}, condition {row.condition}: expected a score of "
-                f"{row.low:.3f} to {row.high:.3f}, got {again.score:.3f}"
-            )
-    return differing
