@@ -11,9 +11,12 @@ from typing import Any, Final
 
 from rsoccer._core import build_info
 from rsoccer.benchmark.entry import FORMAT, Entry, Row
+from rsoccer.benchmark.numbers import wrong_numbers
 from rsoccer.benchmark.protocol import MATCHES, SEED, TASKS, rows_of
 from rsoccer.registry import make_task
 
+FLOATS: Final = ("score", "low", "high", "seconds", "wall_clock")
+"""Numbers of a row that are no counts."""
 _TYPES: Final[dict[str, type]] = {
     **dict.fromkeys(("name", "policy", "digest", "description", "link", "date"), str),
     **dict.fromkeys(("matches", "seed"), int),
@@ -23,7 +26,7 @@ _TYPES: Final[dict[str, type]] = {
 _ROW_TYPES: Final[dict[str, type]] = {
     **dict.fromkeys(("opponent", "condition", "metric"), str),
     **dict.fromkeys(("matches", "wins", "draws", "losses"), int),
-    **dict.fromkeys(("score", "low", "high", "seconds", "wall_clock"), float),
+    **dict.fromkeys(FLOATS, float),
 }
 _MACHINE: Final = ("processor", "cores", "system", "python", "numpy")
 
@@ -145,27 +148,10 @@ def _row(task: str, matches: int, row: Row) -> Iterator[str]:
         yield f"metric: expected {made.success!r}, got {row.metric!r}"
     if row.matches != matches:
         yield f"matches: expected {matches}, got {row.matches}"
-    counts = (row.wins, row.draws, row.losses)
-    yield from _numbers(made.two_sided, counts, row)
-
-
-def _numbers(two_sided: bool, counts: tuple[int, int, int], row: Row) -> Iterator[str]:
-    """Counts, score and times of a row that cannot be those of matches."""
-    if min(counts) < 0 or sum(counts) != row.matches:
-        yield f"wins, draws, losses: expected {row.matches} in all, got {counts}"
-    numbers = {name: getattr(row, name) for name in _ROW_TYPES if _ROW_TYPES[name] is float}
-    if wrong := [name for name, value in numbers.items() if not math.isfinite(value)]:
+    if wrong := [name for name in FLOATS if not math.isfinite(getattr(row, name))]:
         yield f"{', '.join(wrong)}: expected finite numbers"
         return
-    if not row.low <= row.score <= row.high:
-        yield f"score: expected low <= score <= high, got {row.low}, {row.score}, {row.high}"
-    # A match that ends by its first goal, or by success, scores 1 at most.
-    if two_sided and abs(row.score - (row.wins - row.losses) / row.matches) > 1e-9:
-        yield f"score: expected (wins - losses) / matches of {counts}, got {row.score}"
-    if (row.score < 0.0 and not row.losses) or (row.score > 0.0 and not row.wins):
-        yield f"score: expected that of {counts} wins, draws and losses, got {row.score}"
-    if row.seconds <= 0.0 or row.wall_clock < 0.0:
-        yield f"seconds: expected a positive time, got {row.seconds}"
+    yield from wrong_numbers(made, row)
 
 
 def _completeness(values: Mapping[str, Any]) -> Iterator[str]:
