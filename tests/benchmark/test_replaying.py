@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from functools import cache
+from typing import Any
 
 import pytest
 
@@ -21,7 +22,7 @@ def row_of(entry: Entry) -> Row:
     return row
 
 
-def claimed(entry: Entry, **numbers: float) -> Entry:
+def claimed(entry: Entry, **numbers: Any) -> Entry:
     return replace(entry, tasks={TASK: (replace(row_of(entry), **numbers),)})
 
 

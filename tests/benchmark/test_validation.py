@@ -62,6 +62,16 @@ def row(**numbers: object) -> Callable[[dict[str, Any]], object]:
         (lambda v: v.update(seed=7), "seed: expected 31, got 7"),
         (lambda v: v.update(matches=100), "matches: expected at least 200, got 100"),
         (lambda v: v["versions"].update(physics=999), "versions.physics: expected 1 to"),
+        (lambda v: v["versions"].pop("package"), "versions.package: expected a text, got None"),
+        (lambda v: v["versions"].update(package=1), "versions.package: expected a text, got 1"),
+        (lambda v: v.update(digest="0" * 63), "digest: expected 64 hexadecimal digits"),
+        (lambda v: v.update(digest="G" * 64), "digest: expected 64 hexadecimal digits"),
+        (lambda v: v.update(date="25.11.2026"), "date: expected year-month-day"),
+        (lambda v: v.update(date="2026-02-30"), "date: expected year-month-day"),
+        (lambda v: v.update(link="javascript:alert(1)"), "link: expected an address"),
+        (lambda v: v.update(link="https://a.org/) | x"), "link: expected an address"),
+        (lambda v: v["refused"].update({"VSS-v0": 1}), "refused.VSS-v0: expected a text, got 1"),
+        (lambda v: v["machine"].update(cores="2"), "machine.cores: expected int, got '2'"),
         (lambda v: v["machine"].pop("cores"), "machine.cores: missing"),
         (lambda v: v["tasks"].update({"Chess-v0": []}), "tasks: expected some of .*Chess-v0"),
         (lambda v: v["tasks"].clear(), "tasks: expected rows of at least one task"),
@@ -94,6 +104,11 @@ def test_a_changed_entry_is_invalid(
 ) -> None:
     (found, *_) = changed(change)
     assert re.search(problem, found)
+
+
+def test_an_address_and_a_digest_are_valid() -> None:
+    both = {"link": "https://example.org/code?v=1#top", "digest": "0a" * 32}
+    assert changed(lambda found: found.update(both)) == []
 
 
 def test_a_goal_score_follows_from_the_counts() -> None:

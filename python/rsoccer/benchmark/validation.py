@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import datetime
 import json
 import math
 import os
+import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, Final
@@ -28,7 +30,10 @@ _ROW_TYPES: Final[dict[str, type]] = {
     **dict.fromkeys(("matches", "wins", "draws", "losses"), int),
     **dict.fromkeys(FLOATS, float),
 }
-_MACHINE: Final = ("processor", "cores", "system", "python", "numpy")
+_MACHINE: Final[dict[str, type]] = {
+    **dict.fromkeys(("processor", "system", "python", "numpy"), str),
+    "cores": int,
+}
 
 
 class EntryError(ValueError):
@@ -113,10 +118,34 @@ def _protocol(values: Mapping[str, Any], partial: bool) -> Iterator[str]:
     physics, newest = values["versions"].get("physics"), int(build_info()["physics"])
     if type(physics) is not int or not 1 <= physics <= newest:
         yield f"versions.physics: expected 1 to {newest}, got {physics!r}"
-    for name in (each for each in _MACHINE if each not in values["machine"]):
-        yield f"machine.{name}: missing"
+    package = values["versions"].get("package")
+    if not isinstance(package, str) or not package:
+        yield f"versions.package: expected a text, got {package!r}"
+    if not re.fullmatch("([0-9a-f]{64})?", values["digest"]):
+        yield f"digest: expected 64 hexadecimal digits or none, got {values['digest']!r}"
+    if not _is_date(values["date"]):
+        yield f"date: expected year-month-day, got {values['date']!r}"
+    if not re.fullmatch(r"(https?://[^\s<>()\[\]|`\"\\]+)?", values["link"]):
+        yield f"link: expected an address that begins with https://, or none, got {values['link']!r}"
+    for name, expected in _MACHINE.items():
+        value = values["machine"].get(name)
+        if name not in values["machine"]:
+            yield f"machine.{name}: missing"
+        elif type(value) is not expected:
+            yield f"machine.{name}: expected {expected.__name__}, got {value!r}"
+    for task, reason in values["refused"].items():
+        if not isinstance(reason, str):
+            yield f"refused.{task}: expected a text, got {reason!r}"
     if unknown := sorted({*values["tasks"], *values["refused"]} - {*TASKS}):
         yield f"tasks: expected some of {list(TASKS)}, got {unknown}"
+
+
+def _is_date(text: str) -> bool:
+    """Whether a text is a date as entries have it."""
+    try:
+        return datetime.date.fromisoformat(text).isoformat() == text
+    except ValueError:
+        return False
 
 
 def _task(values: Mapping[str, Any], task: str, rows: object, partial: bool) -> Iterator[str]:
