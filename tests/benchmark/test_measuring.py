@@ -94,6 +94,7 @@ def test_a_file_is_named_by_its_content(tmp_path: Path) -> None:
         ({"tasks": ["VSSMatch-v0"]}, "tasks: expected some of .*VSSMatch-v0"),
         ({"tasks": TASK}, "tasks: expected some of"),
         ({"matches": 10}, "matches: expected .* 20"),
+        ({"link": "my page"}, "link: expected an address .*, got 'my page'"),
         ({"matches": 21}, "matches: expected an even number, got 21"),
     ],
 )

@@ -7,6 +7,7 @@ import datetime
 import hashlib
 import json
 import os
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -20,6 +21,8 @@ from rsoccer.policies.base import Policy
 
 FORMAT: Final = 1
 """Version of the file."""
+LINK: Final = re.compile(r"(https?://[^\s<>()\[\]|`\"\\]+)?")
+"""Address of code or paper, or none; without characters that end a link of a page."""
 
 
 @dataclass(frozen=True)
@@ -102,7 +105,12 @@ class Entry:
             link: address of code or paper.
             matches: matches of each row.
             robust: whether it will be measured under all conditions.
+
+        Raises:
+            ValueError: a link that is no address.
         """
+        if not LINK.fullmatch(link):
+            raise ValueError(f"link: expected an address (https://...) or none, got {link!r}")
         return Entry(
             name=name or name_of(policy),
             policy=name_of(policy),

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from rsoccer._core import build_info
-from rsoccer.benchmark.entry import FORMAT, Entry, Row
+from rsoccer.benchmark.entry import FORMAT, LINK, Entry, Row
 from rsoccer.benchmark.numbers import wrong_numbers
 from rsoccer.benchmark.protocol import MATCHES, SEED, TASKS, rows_of
 from rsoccer.registry import make_task
@@ -118,6 +118,14 @@ def _protocol(values: Mapping[str, Any], partial: bool) -> Iterator[str]:
     physics, newest = values["versions"].get("physics"), int(build_info()["physics"])
     if type(physics) is not int or not 1 <= physics <= newest:
         yield f"versions.physics: expected 1 to {newest}, got {physics!r}"
+    if unknown := sorted({*values["tasks"], *values["refused"]} - {*TASKS}):
+        yield f"tasks: expected some of {list(TASKS)}, got {unknown}"
+    yield from _texts(values)
+    yield from _machine(values["machine"])
+
+
+def _texts(values: Mapping[str, Any]) -> Iterator[str]:
+    """Texts of the head that are not of their form."""
     package = values["versions"].get("package")
     if not isinstance(package, str) or not package:
         yield f"versions.package: expected a text, got {package!r}"
@@ -125,19 +133,21 @@ def _protocol(values: Mapping[str, Any], partial: bool) -> Iterator[str]:
         yield f"digest: expected 64 hexadecimal digits or none, got {values['digest']!r}"
     if not _is_date(values["date"]):
         yield f"date: expected year-month-day, got {values['date']!r}"
-    if not re.fullmatch(r"(https?://[^\s<>()\[\]|`\"\\]+)?", values["link"]):
-        yield f"link: expected an address that begins with https://, or none, got {values['link']!r}"
-    for name, expected in _MACHINE.items():
-        value = values["machine"].get(name)
-        if name not in values["machine"]:
-            yield f"machine.{name}: missing"
-        elif type(value) is not expected:
-            yield f"machine.{name}: expected {expected.__name__}, got {value!r}"
+    if not LINK.fullmatch(values["link"]):
+        yield f"link: expected an address (https://...) or none, got {values['link']!r}"
     for task, reason in values["refused"].items():
         if not isinstance(reason, str):
             yield f"refused.{task}: expected a text, got {reason!r}"
-    if unknown := sorted({*values["tasks"], *values["refused"]} - {*TASKS}):
-        yield f"tasks: expected some of {list(TASKS)}, got {unknown}"
+
+
+def _machine(values: Mapping[str, Any]) -> Iterator[str]:
+    """Problems of the description of the machine."""
+    for name, expected in _MACHINE.items():
+        value = values.get(name)
+        if name not in values:
+            yield f"machine.{name}: missing"
+        elif type(value) is not expected:
+            yield f"machine.{name}: expected {expected.__name__}, got {value!r}"
 
 
 def _is_date(text: str) -> bool:
