@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from typing import Final
 
-from benches.markdown import table
+from benches.markdown import code, escaped, table
 from benches.result_files import RESULTS
 from rsoccer.benchmark import (
     CONDITIONS,
@@ -21,6 +21,7 @@ from rsoccer.benchmark import (
     read_entry,
 )
 from rsoccer.benchmark.conditions import TRUTH
+from rsoccer.benchmark.entry import LINK
 from tools.paths import ROOT
 
 FOLDER: Final = ROOT / "benchmarks"
@@ -81,8 +82,7 @@ def _plain(task: str, found: list[Entry]) -> str:
     metric = scores[ordered[0].name][0].metric.replace("_", " ")
     against = [f"against `{name}`" if name != "-" else metric for name in opponents]
     rows = [
-        (f"{_name(entry)}", *map(_score, scores[entry.name]), str(entry.matches))
-        for entry in ordered
+        (_name(entry), *map(_score, scores[entry.name]), str(entry.matches)) for entry in ordered
     ]
     title = f"### {task}\n\nMeasure: {metric}.\n\n"
     return title + table(("policy", *against, "matches a row"), rows)
@@ -125,16 +125,21 @@ def provenance(found: list[Entry] | None = None) -> str:
     header = ("policy", "description", "date", "rsoccer, physics", "machine", "wall clock")
     rows = [
         (
-            f"[{_name(entry)}]({entry.link})" if entry.link else _name(entry),
-            entry.description,
-            entry.date,
-            f"{entry.versions['package']}, {entry.versions['physics']}",
-            f"{entry.machine['processor']}, {entry.machine['cores']} cores",
+            f"[{_name(entry)}]({entry.link})" if _is_link(entry.link) else _name(entry),
+            escaped(entry.description),
+            escaped(entry.date),
+            escaped(f"{entry.versions['package']}, {entry.versions['physics']}"),
+            escaped(f"{entry.machine['processor']}, {entry.machine['cores']} cores"),
             f"{sum(row.wall_clock for rows in entry.tasks.values() for row in rows) / 60:.0f} min",
         )
         for entry in sorted(found, key=lambda entry: entry.name)
     ]
     return table(header, rows)
+
+
+def _is_link(text: str) -> bool:
+    """Whether an address is one that a page may lead to."""
+    return bool(text and LINK.fullmatch(text))
 
 
 def quoted() -> str:
@@ -172,7 +177,7 @@ def _row(entry: Entry, task: str, opponent: str, condition: str) -> Row:
 
 def _name(entry: Entry) -> str:
     """Name of an entry, marked if the physics is another one now."""
-    return f"`{entry.name}`{'' if is_current(entry) else STALE}"
+    return f"{code(entry.name)}{'' if is_current(entry) else STALE}"
 
 
 def _score(row: Row) -> str:

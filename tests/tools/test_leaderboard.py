@@ -65,6 +65,25 @@ def test_where_an_entry_comes_from_is_shown() -> None:
     assert "[`mine`](https://example.org) | About mine." in leaderboard.provenance([linked])
 
 
+def test_texts_of_an_entry_are_no_markup_of_the_page() -> None:
+    foreign = replace(
+        made("a`|b\n<script>", 0.5, robust=True),
+        description="x | y\n\n<img src=x> `code` [here](javascript:1) *b*",
+        machine={**made("other", 0.5).machine, "processor": "<b>|"},
+        link="javascript:alert(1)",
+    )
+    row = leaderboard.provenance([foreign]).splitlines()[2]
+    cells = row.split(" | ")
+    assert cells[0] == "| `a'/b <script>`", "code shows tags as they are"
+    assert cells[1].startswith("x &#124; y &#60;img src=x&#62; &#96;code&#96; &#91;here&#93;(")
+    assert cells[4].startswith("&#60;b&#62;&#124;, ")
+    assert row.count("|") == 7
+    assert "](" not in row
+    for text in (leaderboard.plain([foreign]), leaderboard.robust([foreign])):
+        assert "`a'/b <script>`" in text
+        assert "a`" not in text
+
+
 def test_quoted_results_have_a_source() -> None:
     rows = json.loads((leaderboard.FOLDER / leaderboard.QUOTED).read_text())
     assert all("](https://" in row["source"] for row in rows)
