@@ -41,13 +41,17 @@ def main() -> int:
         1 if a file is invalid.
     """
     failed = False
+    read = []
     for path in files():
         try:
-            read_entry(path)
+            read.append((path, read_entry(path)))
         except EntryError as error:
             failed = True
             print(error)
-    return int(failed)
+    twice = _of_one_name(read)
+    for text in twice:
+        print(text)
+    return int(failed or bool(twice))
 
 
 def files(folder: Path = FOLDER) -> list[Path]:
@@ -59,9 +63,25 @@ def entries(folder: Path = FOLDER) -> list[Entry]:
     """Return all entries.
 
     Raises:
-        EntryError: A file is invalid.
+        EntryError: A file is invalid, or has the name of another one.
     """
-    return [read_entry(path) for path in files(folder)]
+    read = [(path, read_entry(path)) for path in files(folder)]
+    if twice := _of_one_name(read):
+        raise EntryError("; ".join(twice))
+    return [entry for _, entry in read]
+
+
+def _of_one_name(read: list[tuple[Path, Entry]]) -> list[str]:
+    """Entries whose name in the tables is that of an earlier file, in words."""
+    first: dict[str, Path] = {}
+    found = []
+    for path, entry in read:
+        shown = code(entry.name)
+        if shown in first:
+            other = first[shown].name
+            found.append(f"{path}: name: expected another one than in {other}, got {entry.name!r}")
+        first.setdefault(shown, path)
+    return found
 
 
 def plain(found: list[Entry] | None = None) -> str:
@@ -77,13 +97,11 @@ def _plain(task: str, found: list[Entry]) -> str:
     if not found:
         return ""
     opponents = [name or "-" for name in opponents_of(task)]
-    scores = {entry.name: [_row(entry, task, name, TRUTH) for name in opponents] for entry in found}
-    ordered = sorted(found, key=lambda entry: -sum(row.score for row in scores[entry.name]))
-    metric = scores[ordered[0].name][0].metric.replace("_", " ")
+    scored = [(entry, [_row(entry, task, name, TRUTH) for name in opponents]) for entry in found]
+    scored.sort(key=lambda pair: -sum(row.score for row in pair[1]))
+    metric = scored[0][1][0].metric.replace("_", " ")
     against = [f"against `{name}`" if name != "-" else metric for name in opponents]
-    rows = [
-        (_name(entry), *map(_score, scores[entry.name]), str(entry.matches)) for entry in ordered
-    ]
+    rows = [(_name(entry), *map(_score, shown), str(entry.matches)) for entry, shown in scored]
     title = f"### {task}\n\nMeasure: {metric}.\n\n"
     return title + table(("policy", *against, "matches a row"), rows)
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from rsoccer.benchmark import Entry, Row, problems, rows_of
+from rsoccer.benchmark import Entry, EntryError, Row, problems, rows_of
 from tools import leaderboard
 
 TASK = "SSLGoToBall-v0"
@@ -42,6 +42,22 @@ def test_the_best_entry_comes_first() -> None:
     assert text.startswith(f"### {TASK}\n\nMeasure: reached.")
     assert text.index("`high` | .900 (.450 to .900)") < text.index("`low` | .500 (.250 to .500)")
     assert "VSS-v0" not in text
+
+
+def test_entries_of_one_name_keep_their_scores_and_are_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = leaderboard.plain([made("same", 0.5), made("same", 0.9)])
+    assert text.index("`same` | .900 (.450 to .900)") < text.index("`same` | .500 (.250 to .500)")
+    entry = leaderboard.entries()[0]
+    for name in ("first", "second"):
+        entry.save(tmp_path / f"{name}.json")
+    with pytest.raises(EntryError, match="name: expected another one than in first.json, got"):
+        leaderboard.entries(tmp_path)
+    found = leaderboard.files(tmp_path)
+    monkeypatch.setattr(leaderboard, "files", lambda: found)
+    assert leaderboard.main() == 1
+    assert "second.json: name: expected another one" in capsys.readouterr().out
 
 
 def test_entries_under_all_conditions_have_mean_and_worst() -> None:
