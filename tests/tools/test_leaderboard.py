@@ -52,7 +52,7 @@ def test_entries_of_one_name_keep_their_scores_and_are_refused(
     entry = leaderboard.entries()[0]
     for name in ("first", "second"):
         entry.save(tmp_path / f"{name}.json")
-    with pytest.raises(EntryError, match="name: expected another one than in first.json, got"):
+    with pytest.raises(EntryError, match=r"name: expected another one than in first\.json, got"):
         leaderboard.entries(tmp_path)
     found = leaderboard.files(tmp_path)
     monkeypatch.setattr(leaderboard, "files", lambda: found)
