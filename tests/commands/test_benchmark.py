@@ -1,5 +1,6 @@
 """`rsoccer benchmark`."""
 
+import hashlib
 import json
 from pathlib import Path
 
@@ -23,6 +24,9 @@ def test_a_policy_is_measured_and_its_file_checked(
     assert "valid, 1 rows of 1 tasks" in capsys.readouterr().out
     assert cli.main(["benchmark", "fetch", *options]) == 0
     assert json.loads(path.read_text()) == first, "no row was played again"
+    unnamed = [*TASK, "--out", str(path)]
+    assert cli.main(["benchmark", "fetch", *unnamed]) == 0
+    assert json.loads(path.read_text()) == first, "the name stays"
     path.write_text(path.read_text().replace('"wins": 200', '"wins": 199'))
     assert cli.main(["benchmark", "--check", str(path)]) == 2
     assert "expected 200 in all" in capsys.readouterr().err
@@ -39,7 +43,9 @@ def test_code_that_an_entry_names_is_not_run(
     )
     monkeypatch.chdir(tmp_path)
     values = json.loads(Path("entry.json").read_text())
-    Path("entry.json").write_text(json.dumps({**values, "policy": "code_of_the_entry:player"}))
+    values["policy"] = "code_of_the_entry:player"
+    values["digest"] = hashlib.sha256(Path("code_of_the_entry.py").read_bytes()).hexdigest()
+    Path("entry.json").write_text(json.dumps(values))
     check = ["--check", "entry.json", "--replay", "SSLGoToBall-v0"]
     assert cli.main(["benchmark", *check]) == 2
     assert "the entry names code, code_of_the_entry:player" in capsys.readouterr().err

@@ -99,7 +99,8 @@ def _checked_policy(entry: Entry, policy: str | os.PathLike[str] | None) -> str:
             "runs only if you name it too"
         )
     played = entry.policy if policy is None else os.fspath(policy)
-    if played != entry.policy and (is_module_text(played) or not entry.digest):
+    code = is_module_text(played) or is_module_text(entry.policy)
+    if played != entry.policy and (code or not entry.digest):
         raise ValueError(f"policy: expected that of the entry, {entry.policy}, got {played}")
     if entry.digest != digest(played):
         raise ValueError(f"replay: {played} is not the file that was measured")
