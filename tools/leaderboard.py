@@ -140,11 +140,12 @@ def _mean(entry: Entry, task: str) -> float:
 def provenance(found: list[Entry] | None = None) -> str:
     """Return the table of what the entries are, and where and when they were measured."""
     found = entries() if found is None else found
-    header = ("policy", "description", "date", "rsoccer, physics", "machine", "wall clock")
+    header = ("policy", "description", "tasks measured", "date", "rsoccer, physics", "machine")
     rows = [
         (
             f"[{_name(entry)}]({entry.link})" if _is_link(entry.link) else _name(entry),
             escaped(entry.description),
+            f"{len(entry.tasks)} of {len(TASKS)}",
             escaped(entry.date),
             escaped(f"{entry.versions['package']}, {entry.versions['physics']}"),
             escaped(f"{entry.machine['processor']}, {entry.machine['cores']} cores"),
@@ -152,7 +153,7 @@ def provenance(found: list[Entry] | None = None) -> str:
         )
         for entry in sorted(found, key=lambda entry: entry.name)
     ]
-    return table(header, rows)
+    return table((*header, "wall clock"), rows)
 
 
 def _is_link(text: str) -> bool:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from rsoccer.benchmark import Entry, EntryError, Row, problems, rows_of
+from rsoccer.benchmark import TASKS, Entry, EntryError, Row, problems, rows_of
 from tools import leaderboard
 
 TASK = "SSLGoToBall-v0"
@@ -78,7 +78,15 @@ def test_an_older_physics_is_marked() -> None:
 
 def test_where_an_entry_comes_from_is_shown() -> None:
     linked = replace(made("mine", 0.5), link="https://example.org")
-    assert "[`mine`](https://example.org) | About mine." in leaderboard.provenance([linked])
+    table = leaderboard.provenance([linked])
+    assert "[`mine`](https://example.org) | About mine. | 1 of 10 |" in table
+    assert "| tasks measured |" in table
+
+
+def test_no_entry_claims_tasks_that_it_lacks() -> None:
+    found = [entry for entry in leaderboard.entries() if len(entry.tasks) < len(TASKS)]
+    assert found
+    assert not [entry.name for entry in found if "each task" in entry.description]
 
 
 def test_texts_of_an_entry_are_no_markup_of_the_page() -> None:
@@ -92,8 +100,8 @@ def test_texts_of_an_entry_are_no_markup_of_the_page() -> None:
     cells = row.split(" | ")
     assert cells[0] == "| `a'/b <script>`", "code shows tags as they are"
     assert cells[1].startswith("x &#124; y &#60;img src=x&#62; &#96;code&#96; &#91;here&#93;(")
-    assert cells[4].startswith("&#60;b&#62;&#124;, ")
-    assert row.count("|") == 7
+    assert cells[5].startswith("&#60;b&#62;&#124;, ")
+    assert row.count("|") == 8
     assert "](" not in row
     for text in (leaderboard.plain([foreign]), leaderboard.robust([foreign])):
         assert "`a'/b <script>`" in text
