@@ -11,6 +11,10 @@ from typing import Final
 FENCE: Final = re.compile(r"^```python *(\w*)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 """A block of Python: its kind, such as `needs_ray` (often none), and its code."""
 
+_MARKUP: Final = frozenset("&<>|`[]*\\{}")
+"""Letters that Markdown, HTML or tables take as their own."""
+_IN_CODE: Final = str.maketrans("`|", "'/")
+
 
 def filled(page: str, parts: Mapping[str, Callable[[], str]], name: str) -> str:
     """Return a page with every generated part renewed.
@@ -39,6 +43,26 @@ def filled(page: str, parts: Mapping[str, Callable[[], str]], name: str) -> str:
         text = textwrap.indent(parts[part]().strip("\n") + "\n", indentation).lstrip("\n")
         page = f"{first}{begin}\n{text}{indentation}{end}{rest.split(end, 1)[1]}"
     return page
+
+
+def escaped(text: str) -> str:
+    """Return a text of others as prose in one cell: no markup, no tags, no further cells.
+
+    Args:
+        text: Any text.
+    """
+    return "".join(
+        f"&#{ord(letter)};" if letter in _MARKUP else letter for letter in " ".join(text.split())
+    )
+
+
+def code(text: str) -> str:
+    """Return a text of others as code in one cell, where no letter can be escaped.
+
+    Args:
+        text: Any text; `'` stands for a backtick in it and `/` for a bar.
+    """
+    return f"`{' '.join(text.split()).translate(_IN_CODE)}`"
 
 
 def table(header: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:

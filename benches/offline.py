@@ -43,6 +43,8 @@ BATCH: Final = 256
 MATCHES: Final = 200
 """Matches of each evaluation."""
 EVALUATION_SEED: Final = 31
+COMPARED: Final = ("task", "skills", "steps", "matches", "physics")
+"""Settings that all rows share."""
 UNITS: Final = (128, 128)
 """Hidden layers of all networks."""
 ALGORITHMS: Final = {
@@ -75,22 +77,31 @@ def main() -> None:
     """Run what is missing, then print the table."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
     parser.add_argument("--rerun", action="store_true", help="repeat finished rows")
-    result = {} if parser.parse_args().rerun else load()
-    result.setdefault("rows", {})
-    result |= settings()
+    result = {"rows": {}} if parser.parse_args().rerun else comparable(load())
     episodes: list[LearnerEpisode] = []
     for policy in SKILLS:
         if policy not in result["rows"]:
             result["rows"][policy] = scored(policy, 0.0)
-            store(result)
+            store(result | settings())
     for name in ALGORITHMS:
         if name not in result["rows"]:
             episodes = episodes or mixed()
             start = time.process_time()
             algorithm = learn(name, through_minari(episodes))
             result["rows"][name] = scored(Learned(algorithm), time.process_time() - start)
-            store(result)
+            store(result | settings())
     sys.stdout.write(f"{results()}\n")
+
+
+def comparable(stored: dict[str, Any]) -> dict[str, Any]:
+    """Return stored results, without rows if those of today would be measured otherwise.
+
+    Args:
+        stored: The results; empty without them.
+    """
+    now = settings()
+    same = all(stored.get(name) == now[name] for name in COMPARED)
+    return stored if same and "rows" in stored else {"rows": {}}
 
 
 def load() -> dict[str, Any]:

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from typing import Final
 
-from benches.markdown import table
+from benches.markdown import code, escaped, table
 from benches.result_files import RESULTS
 from rsoccer.benchmark import (
     CONDITIONS,
@@ -21,6 +21,7 @@ from rsoccer.benchmark import (
     read_entry,
 )
 from rsoccer.benchmark.conditions import TRUTH
+from rsoccer.benchmark.entry import LINK
 from tools.paths import ROOT
 
 FOLDER: Final = ROOT / "benchmarks"
@@ -40,13 +41,17 @@ def main() -> int:
         1 if a file is invalid.
     """
     failed = False
+    read = []
     for path in files():
         try:
-            read_entry(path)
+            read.append((path, read_entry(path)))
         except EntryError as error:
             failed = True
             print(error)
-    return int(failed)
+    twice = _of_one_name(read)
+    for text in twice:
+        print(text)
+    return int(failed or bool(twice))
 
 
 def files(folder: Path = FOLDER) -> list[Path]:
@@ -58,9 +63,25 @@ def entries(folder: Path = FOLDER) -> list[Entry]:
     """Return all entries.
 
     Raises:
-        EntryError: A file is invalid.
+        EntryError: A file is invalid, or has the name of another one.
     """
-    return [read_entry(path) for path in files(folder)]
+    read = [(path, read_entry(path)) for path in files(folder)]
+    if twice := _of_one_name(read):
+        raise EntryError("; ".join(twice))
+    return [entry for _, entry in read]
+
+
+def _of_one_name(read: list[tuple[Path, Entry]]) -> list[str]:
+    """Entries whose name in the tables is that of an earlier file, in words."""
+    first: dict[str, Path] = {}
+    found = []
+    for path, entry in read:
+        shown = code(entry.name)
+        if shown in first:
+            other = first[shown].name
+            found.append(f"{path}: name: expected another one than in {other}, got {entry.name!r}")
+        first.setdefault(shown, path)
+    return found
 
 
 def plain(found: list[Entry] | None = None) -> str:
@@ -76,14 +97,11 @@ def _plain(task: str, found: list[Entry]) -> str:
     if not found:
         return ""
     opponents = [name or "-" for name in opponents_of(task)]
-    scores = {entry.name: [_row(entry, task, name, TRUTH) for name in opponents] for entry in found}
-    ordered = sorted(found, key=lambda entry: -sum(row.score for row in scores[entry.name]))
-    metric = scores[ordered[0].name][0].metric.replace("_", " ")
+    scored = [(entry, [_row(entry, task, name, TRUTH) for name in opponents]) for entry in found]
+    scored.sort(key=lambda pair: -sum(row.score for row in pair[1]))
+    metric = scored[0][1][0].metric.replace("_", " ")
     against = [f"against `{name}`" if name != "-" else metric for name in opponents]
-    rows = [
-        (f"{_name(entry)}", *map(_score, scores[entry.name]), str(entry.matches))
-        for entry in ordered
-    ]
+    rows = [(_name(entry), *map(_score, shown), str(entry.matches)) for entry, shown in scored]
     title = f"### {task}\n\nMeasure: {metric}.\n\n"
     return title + table(("policy", *against, "matches a row"), rows)
 
@@ -122,19 +140,25 @@ def _mean(entry: Entry, task: str) -> float:
 def provenance(found: list[Entry] | None = None) -> str:
     """Return the table of what the entries are, and where and when they were measured."""
     found = entries() if found is None else found
-    header = ("policy", "description", "date", "rsoccer, physics", "machine", "wall clock")
+    header = ("policy", "description", "tasks measured", "date", "rsoccer, physics", "machine")
     rows = [
         (
-            f"[{_name(entry)}]({entry.link})" if entry.link else _name(entry),
-            entry.description,
-            entry.date,
-            f"{entry.versions['package']}, {entry.versions['physics']}",
-            f"{entry.machine['processor']}, {entry.machine['cores']} cores",
+            f"[{_name(entry)}]({entry.link})" if _is_link(entry.link) else _name(entry),
+            escaped(entry.description),
+            f"{len(entry.tasks)} of {len(TASKS)}",
+            escaped(entry.date),
+            escaped(f"{entry.versions['package']}, {entry.versions['physics']}"),
+            escaped(f"{entry.machine['processor']}, {entry.machine['cores']} cores"),
             f"{sum(row.wall_clock for rows in entry.tasks.values() for row in rows) / 60:.0f} min",
         )
         for entry in sorted(found, key=lambda entry: entry.name)
     ]
-    return table(header, rows)
+    return table((*header, "wall clock"), rows)
+
+
+def _is_link(text: str) -> bool:
+    """Whether an address is one that a page may lead to."""
+    return bool(text and LINK.fullmatch(text))
 
 
 def quoted() -> str:
@@ -172,7 +196,7 @@ def _row(entry: Entry, task: str, opponent: str, condition: str) -> Row:
 
 def _name(entry: Entry) -> str:
     """Name of an entry, marked if the physics is another one now."""
-    return f"`{entry.name}`{'' if is_current(entry) else STALE}"
+    return f"{code(entry.name)}{'' if is_current(entry) else STALE}"
 
 
 def _score(row: Row) -> str:

@@ -37,6 +37,27 @@ def test_the_table_has_a_row_for_each_policy(
     assert "| IQL | - | 0.500 | 0.400 to 0.600 | 2.0 s | 12 s |" in table
 
 
+@pytest.mark.parametrize(
+    "change", [{"physics": 1}, {"steps": 7}, {"matches": 2}, {"skills": {"ou": 1}}, {}]
+)
+def test_rows_of_other_settings_are_measured_again(
+    change: dict[str, object], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(offline, "RESULT", tmp_path / "offline.json")
+    monkeypatch.setattr(offline, "ALGORITHMS", {})
+    monkeypatch.setattr("sys.argv", ["offline"])
+    old = {"score": 0.5, "low": 0.4, "high": 0.6, "seconds": 2.0, "training": 0.0}
+    new = {**old, "score": 0.25}
+    monkeypatch.setattr(offline, "scored", lambda policy, seconds: new)
+    rows = dict.fromkeys(offline.SKILLS, old)
+    offline.store({**offline.settings(), "date": "2000-01-01", **change, "rows": rows})
+    offline.main()
+    found = offline.load()
+    assert found["rows"] == dict.fromkeys(offline.SKILLS, new if change else old)
+    assert (found["date"] == "2000-01-01") is not bool(change), "the day of the measurement"
+    assert all(found[name] == offline.settings()[name] for name in offline.COMPARED)
+
+
 def test_steps_of_all_episodes_are_joined_for_the_library() -> None:
     class Episode:
         def __init__(self, steps: int) -> None:

@@ -1,5 +1,6 @@
 """`run_benchmark`: rows of all opponents and conditions, and measurements that go on."""
 
+import hashlib
 import json
 from pathlib import Path
 
@@ -76,6 +77,31 @@ def test_an_entry_of_another_protocol_or_policy_does_not_go_on() -> None:
         run_benchmark("hold", [TASK], matches=20, robust=False, begun=begun)
 
 
+def test_a_name_stays_unless_another_one_is_given() -> None:
+    begun = measure(name="Mine")
+    assert measure(begun=begun).name == "Mine"
+    assert measure(begun=begun, name="Other").name == "Other"
+    assert measure().name == "fetch"
+
+
+def test_code_that_has_changed_does_not_go_on(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.syspath_prepend(tmp_path)
+    source = tmp_path / "code_to_measure.py"
+    source.write_text(
+        "from rsoccer.policies import make_policy\n"
+        "def player(task):\n    return make_policy('fetch', task)\n"
+    )
+    begun = run_benchmark("code_to_measure:player", [TASK], matches=20, threads=1, robust=False)
+    assert begun.digest == hashlib.sha256(source.read_bytes()).hexdigest()
+    with source.open("a") as file:
+        file.write("# Another policy.\n")
+    with pytest.raises(ValueError, match="begun: expected an entry whose digest is"):
+        run_benchmark("code_to_measure:player", [TASK], matches=20, robust=False, begun=begun)
+
+
 def test_a_file_is_named_by_its_content(tmp_path: Path) -> None:
     best = list_trained()[TASK]
     copy = tmp_path / "policy.safetensors"
@@ -94,6 +120,7 @@ def test_a_file_is_named_by_its_content(tmp_path: Path) -> None:
         ({"tasks": ["VSSMatch-v0"]}, "tasks: expected some of .*VSSMatch-v0"),
         ({"tasks": TASK}, "tasks: expected some of"),
         ({"matches": 10}, "matches: expected .* 20"),
+        ({"link": "my page"}, "link: expected an address .*, got 'my page'"),
         ({"matches": 21}, "matches: expected an even number, got 21"),
     ],
 )

@@ -16,7 +16,6 @@ from rsoccer.benchmark import (
     is_current,
     problems,
     read_entry,
-    replayed,
     run_benchmark,
 )
 
@@ -63,6 +62,16 @@ def row(**numbers: object) -> Callable[[dict[str, Any]], object]:
         (lambda v: v.update(seed=7), "seed: expected 31, got 7"),
         (lambda v: v.update(matches=100), "matches: expected at least 200, got 100"),
         (lambda v: v["versions"].update(physics=999), "versions.physics: expected 1 to"),
+        (lambda v: v["versions"].pop("package"), "versions.package: expected a text, got None"),
+        (lambda v: v["versions"].update(package=1), "versions.package: expected a text, got 1"),
+        (lambda v: v.update(digest="0" * 63), "digest: expected 64 hexadecimal digits"),
+        (lambda v: v.update(digest="G" * 64), "digest: expected 64 hexadecimal digits"),
+        (lambda v: v.update(date="25.11.2026"), "date: expected year-month-day"),
+        (lambda v: v.update(date="2026-02-30"), "date: expected year-month-day"),
+        (lambda v: v.update(link="javascript:alert(1)"), "link: expected an address"),
+        (lambda v: v.update(link="https://a.org/) | x"), "link: expected an address"),
+        (lambda v: v["refused"].update({"VSS-v0": 1}), "refused.VSS-v0: expected a text, got 1"),
+        (lambda v: v["machine"].update(cores="2"), "machine.cores: expected int, got '2'"),
         (lambda v: v["machine"].pop("cores"), "machine.cores: missing"),
         (lambda v: v["tasks"].update({"Chess-v0": []}), "tasks: expected some of .*Chess-v0"),
         (lambda v: v["tasks"].clear(), "tasks: expected rows of at least one task"),
@@ -81,7 +90,13 @@ def row(**numbers: object) -> Callable[[dict[str, Any]], object]:
         (row(low=2.0), "score: expected low <= score <= high"),
         (row(score=float("nan")), "score: expected finite numbers"),
         (row(seconds=0.0), "seconds: expected a positive time"),
-        (row(wins=0, losses=200), "score: expected that of"),
+        (row(seconds=31.0), "seconds: expected a positive time up to 30, got 31.0"),
+        (row(wall_clock=-1.0), "wall_clock: expected a time of 0 or more"),
+        (row(wins=0, losses=200), "losses: expected 0 as reached is not negative, got 200"),
+        (row(wins=1, draws=199, score=50.0, low=0.0, high=50.0), "expected .* 0.005, got 50.0"),
+        (row(low=0.0), r"low: expected about 1.000, as of \(200, 0, 0\), got 0.0"),
+        (row(wins=100, draws=100, score=0.5, low=0.5, high=0.5), "low: expected about 0.43"),
+        (row(wins=100, draws=100, score=0.5, low=0.43, high=1.0), "high: expected about 0.57"),
     ],
 )
 def test_a_changed_entry_is_invalid(
@@ -89,6 +104,11 @@ def test_a_changed_entry_is_invalid(
 ) -> None:
     (found, *_) = changed(change)
     assert re.search(problem, found)
+
+
+def test_an_address_and_a_digest_are_valid() -> None:
+    both = {"link": "https://example.org/code?v=1#top", "digest": "0a" * 32}
+    assert changed(lambda found: found.update(both)) == []
 
 
 def test_a_goal_score_follows_from_the_counts() -> None:
@@ -101,6 +121,44 @@ def test_a_goal_score_follows_from_the_counts() -> None:
     rows[1]["score"] = 0.6
     (problem,) = problems(found)
     assert "expected (wins - losses) / matches" in problem
+
+
+def test_an_interval_follows_from_the_counts_of_a_goal_score() -> None:
+    found = values()
+    rows = [{**found["tasks"][TASK][0], "opponent": name} for name in ("ou", "zero", "strike")]
+    for each in rows:
+        each.update(metric="goal_score", wins=100, draws=0, losses=100, score=0.0)
+        each.update(low=-0.14, high=0.14)
+    # Where one side wins all and the other loses all, no resample differs.
+    rows[1].update(low=0.0, high=0.0)
+    found["tasks"] = {"SSLSelfPlay-v0": rows}
+    assert problems(found) == []
+    rows[2].update(low=-1.0, high=1.0)
+    low, high = problems(found)
+    assert "row 2: low: expected about -0.14" in low
+    assert "row 2: high: expected about 0.000 to 0.14" in high
+
+
+@pytest.mark.parametrize(
+    ("task", "metric", "numbers", "problem"),
+    [
+        ("SSLDribbling-v0", "gates", {"score": 3.5, "low": 3.4, "high": 3.6}, ""),
+        ("SSLDribbling-v0", "gates", {"score": 3.505}, "score: expected 0.5 to 3.5 of 100 matches"),
+        ("SSLDribbling-v0", "gates", {"score": 0.495}, "score: expected 0.5 to 3.5 of 100 matches"),
+        ("SSLDribbling-v0", "gates", {"score": 1.001}, "score: expected a whole number over 200"),
+        ("SSLDribbling-v0", "gates", {"high": 7.5}, "low, high: expected 0 to 7, got 0.0, 7.5"),
+        ("SSLPassEnduranceMulti-v1", "passes", {"score": 9.5, "high": 12.0}, ""),
+        ("SSLPassEnduranceMulti-v1", "passes", {"low": -1.0}, "low, high: expected 0 to 1200"),
+    ],
+)
+def test_a_metric_that_counts_has_bounds(
+    task: str, metric: str, numbers: dict[str, float], problem: str
+) -> None:
+    found = values()
+    row = {**found["tasks"][TASK][0], "metric": metric, "wins": 100, "draws": 100}
+    found["tasks"] = {task: [{**row, "score": 1.0, "low": 0.0, "high": 7.0, **numbers}]}
+    assert problem in "; ".join(problems(found))
+    assert bool(problem) == bool(problems(found))
 
 
 def test_a_partial_entry_may_lack_rows_but_have_no_others() -> None:
@@ -119,17 +177,3 @@ def test_files_that_hold_no_entry_are_refused(tmp_path: Path) -> None:
     path.write_text("[]")
     with pytest.raises(EntryError, match="expected an object, got list"):
         read_entry(path)
-
-
-def test_matches_that_are_played_again_reveal_other_scores() -> None:
-    assert replayed(entry(), TASK, threads=1) == []
-    (row,) = entry().tasks[TASK]
-    better = replace(row, wins=0, draws=200, score=0.0, low=0.0, high=0.0)
-    (found,) = replayed(replace(entry(), tasks={TASK: (better,)}), TASK, threads=1)
-    assert f"{TASK}, opponent -, condition truth: expected a score of 0.000 to 0.000" in found
-    with pytest.raises(ValueError, match=r"replay: expected one of \['SSLGoToBall-v0'\]"):
-        replayed(entry(), "VSS-v0")
-    with pytest.raises(ValueError, match=r"replay: expected physics"):
-        replayed(replace(entry(), versions={"package": "0", "physics": 1}), TASK)
-    with pytest.raises(ValueError, match=r"is not the file that was measured"):
-        replayed(replace(entry(), digest="0" * 64), TASK)

@@ -1,5 +1,6 @@
 """`rsoccer what-if`."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -40,6 +41,31 @@ def test_a_replay_without_snapshots_says_so(
     path = record_replay("VSSSelfPlay-v0", {"all": "zero"}, 3, 1.0).save(tmp_path / "match.rsr")
     assert cli.main(["what-if", str(path), "--at", "0.5", "--blue", "ou", "--seconds", "0.1"]) == 0
     assert "no snapshot before this moment" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("after", [0, 10])
+@pytest.mark.parametrize("snapshots", [True, False])
+def test_code_that_the_replay_names_is_not_run(
+    *,
+    recorded: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    after: int,
+    snapshots: bool,
+) -> None:
+    (tmp_path / "code_of_the_file.py").write_text("open('imported', 'w').close()\n")
+    monkeypatch.chdir(tmp_path)
+    replay = Replay.load(recorded)
+    at = f"{replay.clock[sorted(replay.snapshots)[1] + after]:g}"
+    named = {robot: "code_of_the_file:player" for robot in replay.controllers if "blue" in robot}
+    changed = replace(replay, controllers={**replay.controllers, **named})
+    if not snapshots:
+        changed = replace(changed, snapshots={})
+    path = changed.save(tmp_path / "changed.rsr")
+    assert cli.main(["what-if", str(path), "--at", at, "--yellow", "chase"]) == 2
+    assert "code_of_the_file:player" in capsys.readouterr().err
+    assert not (tmp_path / "imported").exists()
 
 
 @pytest.mark.parametrize(

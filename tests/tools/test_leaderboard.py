@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from rsoccer.benchmark import Entry, Row, problems, rows_of
+from rsoccer.benchmark import TASKS, Entry, EntryError, Row, problems, rows_of
 from tools import leaderboard
 
 TASK = "SSLGoToBall-v0"
@@ -44,6 +44,22 @@ def test_the_best_entry_comes_first() -> None:
     assert "VSS-v0" not in text
 
 
+def test_entries_of_one_name_keep_their_scores_and_are_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = leaderboard.plain([made("same", 0.5), made("same", 0.9)])
+    assert text.index("`same` | .900 (.450 to .900)") < text.index("`same` | .500 (.250 to .500)")
+    entry = leaderboard.entries()[0]
+    for name in ("first", "second"):
+        entry.save(tmp_path / f"{name}.json")
+    with pytest.raises(EntryError, match=r"name: expected another one than in first\.json, got"):
+        leaderboard.entries(tmp_path)
+    found = leaderboard.files(tmp_path)
+    monkeypatch.setattr(leaderboard, "files", lambda: found)
+    assert leaderboard.main() == 1
+    assert "second.json: name: expected another one" in capsys.readouterr().out
+
+
 def test_entries_under_all_conditions_have_mean_and_worst() -> None:
     text = leaderboard.robust([made("plain", 0.9), made("robust", 0.8, robust=True)])
     assert "`plain`" not in text
@@ -62,7 +78,34 @@ def test_an_older_physics_is_marked() -> None:
 
 def test_where_an_entry_comes_from_is_shown() -> None:
     linked = replace(made("mine", 0.5), link="https://example.org")
-    assert "[`mine`](https://example.org) | About mine." in leaderboard.provenance([linked])
+    table = leaderboard.provenance([linked])
+    assert "[`mine`](https://example.org) | About mine. | 1 of 10 |" in table
+    assert "| tasks measured |" in table
+
+
+def test_no_entry_claims_tasks_that_it_lacks() -> None:
+    found = [entry for entry in leaderboard.entries() if len(entry.tasks) < len(TASKS)]
+    assert found
+    assert not [entry.name for entry in found if "each task" in entry.description]
+
+
+def test_texts_of_an_entry_are_no_markup_of_the_page() -> None:
+    foreign = replace(
+        made("a`|b\n<script>", 0.5, robust=True),
+        description="x | y\n\n<img src=x> `code` [here](javascript:1) *b*",
+        machine={**made("other", 0.5).machine, "processor": "<b>|"},
+        link="javascript:alert(1)",
+    )
+    row = leaderboard.provenance([foreign]).splitlines()[2]
+    cells = row.split(" | ")
+    assert cells[0] == "| `a'/b <script>`", "code shows tags as they are"
+    assert cells[1].startswith("x &#124; y &#60;img src=x&#62; &#96;code&#96; &#91;here&#93;(")
+    assert cells[5].startswith("&#60;b&#62;&#124;, ")
+    assert row.count("|") == 8
+    assert "](" not in row
+    for text in (leaderboard.plain([foreign]), leaderboard.robust([foreign])):
+        assert "`a'/b <script>`" in text
+        assert "a`" not in text
 
 
 def test_quoted_results_have_a_source() -> None:

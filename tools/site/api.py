@@ -174,6 +174,8 @@ GROUPS: Final = (
             "rsoccer.benchmark.measuring",
             "rsoccer.benchmark.entry",
             "rsoccer.benchmark.validation",
+            "rsoccer.benchmark.numbers",
+            "rsoccer.benchmark.replaying",
             "rsoccer.benchmark.table",
             "rsoccer.datasets",
             "rsoccer.datasets.episodes",

@@ -10,8 +10,9 @@ from rsoccer.benchmark.conditions import CONDITIONS, Condition
 from rsoccer.benchmark.entry import Entry, Row
 from rsoccer.benchmark.measuring import run_benchmark
 from rsoccer.benchmark.protocol import MATCHES, SEED, TASKS, opponents_of, rows_of
+from rsoccer.benchmark.replaying import replayed
 from rsoccer.benchmark.table import report
-from rsoccer.benchmark.validation import EntryError, is_current, problems, read_entry, replayed
+from rsoccer.benchmark.validation import EntryError, is_current, problems, read_entry
 
 __all__ = ["CONDITIONS", "MATCHES", "SEED", "TASKS", "Condition", "Entry", "EntryError", "Row"]
 __all__ += ["is_current", "opponents_of", "problems", "read_entry", "replayed", "report"]

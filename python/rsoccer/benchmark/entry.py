@@ -7,19 +7,24 @@ import datetime
 import hashlib
 import json
 import os
+import re
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Final
 
+from rsoccer import plugins
 from rsoccer.benchmark.machine import machine, versions
 from rsoccer.benchmark.protocol import MATCHES, SEED, rows_of
 from rsoccer.files import write_atomically
-from rsoccer.policies import PolicyLike, file_of, name_of
+from rsoccer.policies import PolicyLike, file_of, is_module_text, name_of
 from rsoccer.policies.base import Policy
 
 FORMAT: Final = 1
 """Version of the file."""
+LINK: Final = re.compile(r"(https?://[^\s<>()\[\]|`\"\\]+)?")
+"""Address of code or paper, or none; without characters that end a link of a page."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +66,7 @@ class Entry:
     policy: str
     """name, path or "module:name" of the policy"""
     digest: str
-    """SHA-256 of the policy file; empty for policies of the package and for code"""
+    """SHA-256 of the policy file or the code's module; empty for policies of the package"""
     description: str
     """origin of the policy, in a sentence"""
     link: str
@@ -102,7 +107,12 @@ class Entry:
             link: address of code or paper.
             matches: matches of each row.
             robust: whether it will be measured under all conditions.
+
+        Raises:
+            ValueError: a link that is no address.
         """
+        if not LINK.fullmatch(link):
+            raise ValueError(f"link: expected an address (https://...) or none, got {link!r}")
         return Entry(
             name=name or name_of(policy),
             policy=name_of(policy),
@@ -178,10 +188,25 @@ class Entry:
 
 
 def digest(policy: PolicyLike) -> str:
-    """Return the SHA-256 of a policy file; an empty text for names, code and objects.
+    """Return the SHA-256 of a policy file, or of the file of a module that has the policy.
+
+    Other files that a module imports are not part of it. It is empty for names and objects.
 
     Args:
-        policy: a policy, its name, its file, or "module:name".
+        policy: a policy, its name, its file, or "module:name", which is imported.
+
+    Raises:
+        FileNotFoundError: the policy file does not exist.
+        ImportError: a "module:name" that does not exist.
     """
-    path = None if isinstance(policy, Policy) else file_of(os.fspath(policy))
+    path = None if isinstance(policy, Policy) else _file(os.fspath(policy))
     return "" if path is None else hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def _file(policy: str) -> Path | None:
+    """The file that has a policy; None for a name, and for a module without one."""
+    if not is_module_text(policy):
+        return file_of(policy)
+    plugins.find("policy", policy)
+    source = sys.modules[policy.partition(":")[0]].__file__
+    return None if source is None or not os.path.isfile(source) else Path(source)

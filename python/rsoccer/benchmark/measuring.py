@@ -40,7 +40,7 @@ def run_benchmark(
         policy: a policy, its name, its file, or "module:name". Tasks that it cannot play are
             listed with the reason.
         tasks: names of tasks of the benchmark; None for all of them.
-        name: name in the table; by default that of the policy.
+        name: name in the table; by default that of `begun`, or of the policy.
         description: how the policy was made, in a sentence.
         link: address of code or paper.
         matches: matches of each row, even and at least 20; the leaderboard takes 200 or more.
@@ -67,7 +67,7 @@ def run_benchmark(
         policy, name, description=description, link=link, matches=matches, robust=robust
     )
     if begun is not None:
-        entry = _continued(begun, entry)
+        entry = _continued(begun, entry, name)
     entry = _without_others(entry, policy, chosen)
     for task in chosen:
         for opponent, condition in entry.missing(task):
@@ -97,14 +97,18 @@ def _without_others(entry: Entry, policy: PolicyLike, tasks: Sequence[str]) -> E
     return entry
 
 
-def _continued(begun: Entry, new: Entry) -> Entry:
+def _continued(begun: Entry, new: Entry, name: str | None) -> Entry:
     """The begun entry, if the new one would go on with it."""
-    for name in ("policy", "digest", "matches", "robust", "seed", "versions"):
-        before, now = getattr(begun, name), getattr(new, name)
+    for field in ("policy", "digest", "matches", "robust", "seed", "versions"):
+        before, now = getattr(begun, field), getattr(new, field)
         if before != now:
-            raise ValueError(f"begun: expected an entry whose {name} is {now!r}, got {before!r}")
-    texts = {name: getattr(new, name) or getattr(begun, name) for name in ("description", "link")}
-    return dataclasses.replace(begun, name=new.name, **texts)
+            raise ValueError(f"begun: expected an entry whose {field} is {now!r}, got {before!r}")
+    return dataclasses.replace(
+        begun,
+        name=name or begun.name,
+        description=new.description or begun.description,
+        link=new.link or begun.link,
+    )
 
 
 def _reason_against(policy: PolicyLike, task: str) -> str | None:

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+import datetime
 import json
 import math
 import os
+import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, Final
 
 from rsoccer._core import build_info
-from rsoccer.benchmark.entry import FORMAT, Entry, Row, digest
-from rsoccer.benchmark.measuring import measured
+from rsoccer.benchmark.entry import FORMAT, LINK, Entry, Row
+from rsoccer.benchmark.numbers import wrong_numbers
 from rsoccer.benchmark.protocol import MATCHES, SEED, TASKS, rows_of
 from rsoccer.registry import make_task
 
+FLOATS: Final = ("score", "low", "high", "seconds", "wall_clock")
+"""Numbers of a row that are no counts."""
 _TYPES: Final[dict[str, type]] = {
     **dict.fromkeys(("name", "policy", "digest", "description", "link", "date"), str),
     **dict.fromkeys(("matches", "seed"), int),
@@ -24,9 +28,12 @@ _TYPES: Final[dict[str, type]] = {
 _ROW_TYPES: Final[dict[str, type]] = {
     **dict.fromkeys(("opponent", "condition", "metric"), str),
     **dict.fromkeys(("matches", "wins", "draws", "losses"), int),
-    **dict.fromkeys(("score", "low", "high", "seconds", "wall_clock"), float),
+    **dict.fromkeys(FLOATS, float),
 }
-_MACHINE: Final = ("processor", "cores", "system", "python", "numpy")
+_MACHINE: Final[dict[str, type]] = {
+    **dict.fromkeys(("processor", "system", "python", "numpy"), str),
+    "cores": int,
+}
 
 
 class EntryError(ValueError):
@@ -111,10 +118,44 @@ def _protocol(values: Mapping[str, Any], partial: bool) -> Iterator[str]:
     physics, newest = values["versions"].get("physics"), int(build_info()["physics"])
     if type(physics) is not int or not 1 <= physics <= newest:
         yield f"versions.physics: expected 1 to {newest}, got {physics!r}"
-    for name in (each for each in _MACHINE if each not in values["machine"]):
-        yield f"machine.{name}: missing"
     if unknown := sorted({*values["tasks"], *values["refused"]} - {*TASKS}):
         yield f"tasks: expected some of {list(TASKS)}, got {unknown}"
+    yield from _texts(values)
+    yield from _machine(values["machine"])
+
+
+def _texts(values: Mapping[str, Any]) -> Iterator[str]:
+    """Texts of the head that are not of their form."""
+    package = values["versions"].get("package")
+    if not isinstance(package, str) or not package:
+        yield f"versions.package: expected a text, got {package!r}"
+    if not re.fullmatch("([0-9a-f]{64})?", values["digest"]):
+        yield f"digest: expected 64 hexadecimal digits or none, got {values['digest']!r}"
+    if not _is_date(values["date"]):
+        yield f"date: expected year-month-day, got {values['date']!r}"
+    if not LINK.fullmatch(values["link"]):
+        yield f"link: expected an address (https://...) or none, got {values['link']!r}"
+    for task, reason in values["refused"].items():
+        if not isinstance(reason, str):
+            yield f"refused.{task}: expected a text, got {reason!r}"
+
+
+def _machine(values: Mapping[str, Any]) -> Iterator[str]:
+    """Problems of the description of the machine."""
+    for name, expected in _MACHINE.items():
+        value = values.get(name)
+        if name not in values:
+            yield f"machine.{name}: missing"
+        elif type(value) is not expected:
+            yield f"machine.{name}: expected {expected.__name__}, got {value!r}"
+
+
+def _is_date(text: str) -> bool:
+    """Whether a text is a date as entries have it."""
+    try:
+        return datetime.date.fromisoformat(text).isoformat() == text
+    except ValueError:
+        return False
 
 
 def _task(values: Mapping[str, Any], task: str, rows: object, partial: bool) -> Iterator[str]:
@@ -146,27 +187,10 @@ def _row(task: str, matches: int, row: Row) -> Iterator[str]:
         yield f"metric: expected {made.success!r}, got {row.metric!r}"
     if row.matches != matches:
         yield f"matches: expected {matches}, got {row.matches}"
-    counts = (row.wins, row.draws, row.losses)
-    yield from _numbers(made.two_sided, counts, row)
-
-
-def _numbers(two_sided: bool, counts: tuple[int, int, int], row: Row) -> Iterator[str]:
-    """Counts, score and times of a row that cannot be those of matches."""
-    if min(counts) < 0 or sum(counts) != row.matches:
-        yield f"wins, draws, losses: expected {row.matches} in all, got {counts}"
-    numbers = {name: getattr(row, name) for name in _ROW_TYPES if _ROW_TYPES[name] is float}
-    if wrong := [name for name, value in numbers.items() if not math.isfinite(value)]:
+    if wrong := [name for name in FLOATS if not math.isfinite(getattr(row, name))]:
         yield f"{', '.join(wrong)}: expected finite numbers"
         return
-    if not row.low <= row.score <= row.high:
-        yield f"score: expected low <= score <= high, got {row.low}, {row.score}, {row.high}"
-    # A match that ends by its first goal, or by success, scores 1 at most.
-    if two_sided and abs(row.score - (row.wins - row.losses) / row.matches) > 1e-9:
-        yield f"score: expected (wins - losses) / matches of {counts}, got {row.score}"
-    if (row.score < 0.0 and not row.losses) or (row.score > 0.0 and not row.wins):
-        yield f"score: expected that of {counts} wins, draws and losses, got {row.score}"
-    if row.seconds <= 0.0 or row.wall_clock < 0.0:
-        yield f"seconds: expected a positive time, got {row.seconds}"
+    yield from wrong_numbers(made, row)
 
 
 def _completeness(values: Mapping[str, Any]) -> Iterator[str]:
@@ -175,42 +199,3 @@ def _completeness(values: Mapping[str, Any]) -> Iterator[str]:
         yield "tasks: expected rows of at least one task, got none"
     for task in sorted({*values["tasks"]} & {*values["refused"]}):
         yield f"{task}: expected rows or a reason, got both"
-
-
-def replayed(entry: Entry, task: str, threads: int | None = None) -> list[str]:
-    """Play the matches of a task again and compare the scores.
-
-    Equal physics gives equal matches, but the last bits of a network's actions may differ between
-    machines. A score that lies in the interval of the row is therefore taken as the same.
-
-    Args:
-        entry: a valid entry.
-        task: name of a task that it has rows of.
-        threads: threads of the simulator; by default one per available processor.
-
-    Returns:
-        The rows whose score is another one, in words.
-
-    Raises:
-        ValueError: the entry has no rows of the task, is of another version of the physics, or of
-            another content of the policy file.
-        FileNotFoundError: the policy is a file that is not here.
-        ImportError: the policy is code that is not here.
-    """
-    if task not in entry.tasks:
-        raise ValueError(f"replay: expected one of {list(entry.tasks)}, got {task!r}")
-    physics = int(build_info()["physics"])
-    if not is_current(entry):
-        raise ValueError(f"replay: expected physics {physics}, got {entry.versions['physics']}")
-    if entry.digest != digest(entry.policy):
-        raise ValueError(f"replay: {entry.policy} is not the file that was measured")
-    differing = []
-    for row in entry.tasks[task]:
-        opponent = None if row.opponent == "-" else row.opponent
-        again = measured(entry.policy, task, opponent, row.condition, entry.matches, threads)
-        if not row.low <= again.score <= row.high:
-            differing.append(
-                f"{task}, opponent {row.opponent}, condition {row.condition}: expected a score of "
-                f"{row.low:.3f} to {row.high:.3f}, got {again.score:.3f}"
-            )
-    return differing

@@ -46,16 +46,18 @@ class Benchmark(Imports):
     check: Annotated[Path | None, arg(metavar="PATH", help_behavior_hint="")] = None
     """.json file to check in place of a measurement"""
     replay: Annotated[str | None, arg(metavar="TASK", help_behavior_hint="")] = None
-    """with --check, a task whose matches are played again to compare the scores"""
+    """with --check, a task whose matches are played again to compare the scores; code runs only if
+    POLICY names it, too"""
 
     def run(self) -> None:
         """Measure and print the table, or check a file.
 
         Raises:
-            ValueError: neither a policy nor a file to check, or both; an invalid entry, one whose
-                scores are others, or an option that is refused.
+            ValueError: neither a policy nor a file to check, or both without a task to replay; an
+                invalid entry, one whose scores are others, or an option that is refused.
         """
-        if (self.policy is None) == (self.check is None):
+        both = self.policy is not None and self.check is not None
+        if (both and self.replay is None) or (self.policy is None and self.check is None):
             raise ValueError("policy: expected a policy, or --check with a file in its place")
         if self.check is not None:
             self._check(self.check)
@@ -91,7 +93,9 @@ class Benchmark(Imports):
     def _check(self, path: Path) -> None:
         """Check a file, and play a task of it again."""
         entry = read_entry(path)
-        if self.replay is not None and (found := replayed(entry, self.replay, self.threads)):
-            raise ValueError("; ".join(found))
+        if self.replay is not None:
+            check_policy_names([self.policy])
+            if found := replayed(entry, self.replay, self.threads, self.policy):
+                raise ValueError("; ".join(found))
         rows = sum(map(len, entry.tasks.values()))
         write(f"{path}: valid, {rows} rows of {len(entry.tasks)} tasks")

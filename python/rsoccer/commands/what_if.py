@@ -12,6 +12,7 @@ from rsoccer.commands.imports import Imports
 from rsoccer.commands.output import check_output, write
 from rsoccer.commands.subject import check_policy_names, team_name
 from rsoccer.controllers import Controllers
+from rsoccer.policies import is_module_text
 from rsoccer.replay import Replay, ReplayError, what_if
 from rsoccer.replay.branch import has_exact_start
 from rsoccer.replay.replay import SUFFIX
@@ -91,9 +92,14 @@ class WhatIf(Imports):
         given = {"blue": self.blue, "yellow": self.yellow}
         found = {}
         for robot, name in recorded.controllers.items():
-            player = given[robot.partition("_")[0]] or name
+            team = robot.partition("_")[0]
+            player = given[team] or name
             if player is None or player == "LEARN":
-                raise ReplayError(f"{robot.partition('_')[0]}: expected a policy for {robot}")
+                raise ReplayError(f"{team}: expected a policy for {robot}")
+            if given[team] is None and is_module_text(player):  # a file must not decide what runs
+                raise ReplayError(
+                    f"{team}: expected a policy for {robot}, as the recorded one is code: {player}"
+                )
             found[robot] = player
         return found
 
