@@ -12,7 +12,7 @@ class Playground {
   constructor(engine, data) {
     this.engine = engine;
     this.data = data;
-    this.inputs = new Inputs();
+    this.inputs = new Inputs(data.keys);
     this.files = {}; // dropped policies by name
     this.choices = { league: data.leagues[0].id, sides: [null, null], skills: [1, 0.7], seed: 1, conditions: {} };
     this.driven = -1;
@@ -380,9 +380,10 @@ class Playground {
       if (typing || event.ctrlKey || event.metaKey || event.altKey) return;
       const key = event.key.toLowerCase();
       const robots = 2 * this.league.robots;
-      if (key === "tab" && this.driven >= 0) this.drive((this.driven + 1) % robots);
-      else if (key === "p") this.togglePause();
-      else if (key === "r") this.newMatch();
+      const { commands } = this.data.keys;
+      if (key === commands.next_robot && this.driven >= 0) this.drive((this.driven + 1) % robots);
+      else if (key === commands.pause) this.togglePause();
+      else if (key === commands.reset) this.newMatch();
       else if (event.key === "Escape") this.drive(-1);
       else if (!this.inputs.press(event.key)) return;
       event.preventDefault();
