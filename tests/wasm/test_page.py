@@ -116,6 +116,47 @@ def test_a_person_plays_and_pulls_the_ball(tmp_path: Path, width: int, height: i
     assert result["wide"]
 
 
+def test_the_keyboard_drives_after_choices_by_pointer(tmp_path: Path) -> None:
+    result = shown(
+        """
+        const press = (key) => document.activeElement.dispatchEvent(
+          new KeyboardEvent("keydown", { key, bubbles: true, cancelable: true }));
+        const choose = (id, kind, pointed) => {
+          const element = document.getElementById(id);
+          if (pointed) element.dispatchEvent(new PointerEvent("pointerdown", { bubbles: true }));
+          element.focus();
+          const focused = document.activeElement === element;
+          element.dispatchEvent(new Event(kind, { bubbles: true }));
+          return focused;
+        };
+        const focused = [], driven = [];
+        const choices = { league: "change", "side-0": "change", speed: "change", "skill-1": "change",
+          "slider-delay": "change", ideal: "click", restart: "click" };
+        for (const [id, kind] of Object.entries(choices)) {
+          focused.push(choose(id, kind, true));
+          player.drive(-1);
+          press("ArrowUp");
+          player.step();
+          player.inputs.releaseAll();
+          driven.push(player.driven >= 0);
+        }
+        player.drive(-1);
+        press("x");
+        choose("slider-delay", "change", false);
+        press("ArrowUp");
+        player.step();
+        const keyed = [player.driven, document.activeElement.id];
+        press("Escape");
+        return { focused, driven, keyed, after: document.activeElement.tagName };
+        """,
+        tmp_path,
+    )
+    assert result["focused"] == [True] * 7
+    assert result["driven"] == [True] * 7
+    assert result["keyed"] == [-1, "slider-delay"]  # keys that move a slider go on with it
+    assert result["after"] == "BODY"
+
+
 def test_a_dropped_policy_plays_and_a_wrong_one_is_refused(tmp_path: Path) -> None:
     file = base64.b64encode((FOLDER / "VSSSelfPlay-v0.safetensors").read_bytes()).decode()
     result = shown(

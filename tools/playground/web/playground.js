@@ -345,10 +345,7 @@ class Playground {
       });
       $(`skill-${team}`).addEventListener("change", () => this.attempt(() => this.setSide(team)));
     }
-    $("driven").addEventListener("change", (event) => {
-      this.drive(Number(event.target.value));
-      event.target.blur();
-    });
+    $("driven").addEventListener("change", (event) => this.drive(Number(event.target.value)));
     $("play").addEventListener("click", () => this.togglePause());
     $("restart").addEventListener("click", () => this.newMatch());
     $("ideal").addEventListener("click", () => {
@@ -358,6 +355,7 @@ class Playground {
     $("share").addEventListener("click", () => this.share());
     $("save").addEventListener("click", () => this.save().catch((error) => this.say(error.message)));
     $("policy").addEventListener("change", (event) => this.readFiles(event.target.files));
+    this.listenToFocus();
     this.listenToKeys();
     this.listenToPointers();
     this.listenToDrops();
@@ -374,11 +372,27 @@ class Playground {
     this.attempt(() => this.begin());
   }
 
+  /** A choice by pointer gives the keyboard back to the robot; one by keys keeps it, to go on with them. */
+  listenToFocus() {
+    let keyed = false;
+    document.addEventListener("pointerdown", () => (keyed = false), true);
+    document.addEventListener("keydown", () => (keyed = true), true);
+    for (const kind of ["change", "click"]) {
+      document.addEventListener(kind, (event) => {
+        const chosen = event.target.closest(kind === "click" ? "button" : "select, input");
+        if (chosen && !keyed) chosen.blur();
+      });
+    }
+  }
+
   listenToKeys() {
     window.addEventListener("keydown", (event) => {
-      const typing = /^(INPUT|SELECT|TEXTAREA)$/.test(event.target.tagName);
-      if (typing || event.ctrlKey || event.metaKey || event.altKey) return;
+      if (event.ctrlKey || event.metaKey || event.altKey) return;
       const key = event.key.toLowerCase();
+      const control = event.target.closest?.("select, input, button");
+      if (control && event.key === "Escape") control.blur();
+      const pressesButton = control?.tagName === "BUTTON" && (key === " " || key === "enter");
+      if (pressesButton || (control && control.tagName !== "BUTTON")) return;
       const robots = 2 * this.league.robots;
       const { commands } = this.data.keys;
       if (key === commands.next_robot && this.driven >= 0) this.drive((this.driven + 1) % robots);
