@@ -157,6 +157,28 @@ def test_the_keyboard_drives_after_choices_by_pointer(tmp_path: Path) -> None:
     assert result["after"] == "BODY"
 
 
+def test_a_held_key_acts_once(tmp_path: Path) -> None:
+    result = shown(
+        """
+        const press = (key, repeat) => window.dispatchEvent(
+          new KeyboardEvent("keydown", { key, repeat, cancelable: true }));
+        const state = () => [player.inputs.dribbles, player.paused, player.choices.seed, player.driven];
+        const states = [];
+        player.drive(0);
+        for (const key of ["v", "p", "Tab", "r"]) {
+          const before = state().join();
+          press(key, false);
+          const once = state().join();
+          const stopped = !press(key, true);
+          states.push([before !== once, once === state().join(), stopped]);
+        }
+        return states;
+        """,
+        tmp_path,
+    )
+    assert result == [[True, True, True]] * 4
+
+
 def test_a_dropped_policy_plays_and_a_wrong_one_is_refused(tmp_path: Path) -> None:
     file = base64.b64encode((FOLDER / "VSSSelfPlay-v0.safetensors").read_bytes()).decode()
     result = shown(

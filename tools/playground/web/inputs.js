@@ -20,14 +20,11 @@ class Inputs {
     return Object.hasOwn(moves, name) || [kick, pass, chip, dribble, ...slow].includes(name);
   }
 
-  /** Note that a key went down; false if it is none of the robot's. */
-  press(key) {
-    const name = key.toLowerCase();
-    if (!this.has(name)) return false;
+  /** Note that a key of the robot went down. */
+  press(name) {
     if (name === this.keys.dribble) this.dribbles = !this.dribbles;
     this.held.add(name);
     this.tapped.add(name);
-    return true;
   }
 
   release(key) {

@@ -395,12 +395,15 @@ class Playground {
       if (pressesButton || (control && control.tagName !== "BUTTON")) return;
       const robots = 2 * this.league.robots;
       const { commands } = this.data.keys;
-      if (key === commands.next_robot && this.driven >= 0) this.drive((this.driven + 1) % robots);
-      else if (key === commands.pause) this.togglePause();
-      else if (key === commands.reset) this.newMatch();
-      else if (event.key === "Escape") this.drive(-1);
-      else if (!this.inputs.press(event.key)) return;
+      let action = null;
+      if (key === commands.next_robot && this.driven >= 0) action = () => this.drive((this.driven + 1) % robots);
+      else if (key === commands.pause) action = () => this.togglePause();
+      else if (key === commands.reset) action = () => this.newMatch();
+      else if (key === "escape") action = () => this.drive(-1);
+      else if (this.inputs.has(key)) action = () => this.inputs.press(key);
+      if (!action) return;
       event.preventDefault();
+      if (!event.repeat) action(); // a key that is held acts once
     });
     window.addEventListener("keyup", (event) => this.inputs.release(event.key));
     window.addEventListener("blur", () => this.inputs.releaseAll());
