@@ -130,8 +130,8 @@ def test_the_keyboard_drives_after_choices_by_pointer(tmp_path: Path) -> None:
           return focused;
         };
         const focused = [], driven = [];
-        const choices = { league: "change", "side-0": "change", speed: "change", "skill-1": "change",
-          "slider-delay": "change", ideal: "click", restart: "click" };
+        const choices = { league: "change", "side-0": "change", speed: "change",
+          "skill-1": "change", "slider-delay": "change", ideal: "click", restart: "click" };
         for (const [id, kind] of Object.entries(choices)) {
           focused.push(choose(id, kind, true));
           player.drive(-1);
@@ -162,7 +162,8 @@ def test_a_held_key_acts_once(tmp_path: Path) -> None:
         """
         const press = (key, repeat) => window.dispatchEvent(
           new KeyboardEvent("keydown", { key, repeat, cancelable: true }));
-        const state = () => [player.inputs.dribbles, player.paused, player.choices.seed, player.driven];
+        const { inputs } = player;
+        const state = () => [inputs.dribbles, player.paused, player.choices.seed, player.driven];
         const states = [];
         player.drive(0);
         for (const key of ["v", "p", "Tab", "r"]) {
@@ -177,6 +178,79 @@ def test_a_held_key_acts_once(tmp_path: Path) -> None:
         tmp_path,
     )
     assert result == [[True, True, True]] * 4
+
+
+def test_a_link_is_taken_by_an_open_page(tmp_path: Path) -> None:
+    result = shown(
+        """
+        const league = document.getElementById("league");
+        league.value = "vss";
+        league.dispatchEvent(new Event("change", { bubbles: true }));
+        player.panel.set({ command: 100 });
+        player.changeConditions();
+        for (let step = 0; step < 100; step++) player.step();
+        player.togglePause();
+        const wanted = [...player.match.row("state")];
+        const link = player.link();
+        league.value = "ssl_b";
+        league.dispatchEvent(new Event("change", { bubbles: true }));
+        location.hash = link;
+        await wait(300);
+        const got = [...player.match.row("state")];
+        const message = document.getElementById("message");
+        const { choices } = player;
+        return { wanted, got, choices, hidden: message.hidden, shown: league.value };
+        """,
+        tmp_path,
+    )
+    assert result["hidden"]
+    assert result["shown"] == "vss"
+    assert result["choices"]["league"] == "vss"
+    assert result["choices"]["conditions"] == {"command": 100}
+    assert len(result["got"]) == len(result["wanted"])
+    assert result["got"][:2] == pytest.approx(result["wanted"][:2], abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("choices", "words"),
+    [
+        ({"league": "mars"}, ["league", "mars"]),
+        ({"league": "ssl_b", "sides": ["file:mine", "idle"]}, ["blue", "file:mine"]),
+        ({"league": "vss", "sides": ["scripted", "best"]}, ["blue", "scripted"]),
+        ({"conditions": {"rolling": "x", "moon": 1, "delay": 1e9}}, ["rolling", "moon", "delay"]),
+        ({"skills": [2, 0.5], "seed": -1}, ["skill of blue", "seed"]),
+        ({"league": "ssl_b"}, ["situation"]),
+        ([1], ["situation"]),
+        (3, ["situation"]),
+    ],
+)
+def test_a_wrong_link_is_named_and_a_match_begins(
+    tmp_path: Path, choices: object, words: list[str]
+) -> None:
+    result = shown(
+        f"""
+        player.match.situation = () => new Float32Array(3);
+        player.choices = {json.dumps(choices)};
+        const link = player.link();
+        const message = document.getElementById("message");
+        player.restore(link);
+        player.step();
+        await wait(100);
+        const first = [message.hidden, message.textContent, player.report.steps];
+        player.restore("#damaged");
+        return [first, [message.hidden, message.textContent, player.report.steps], player.choices];
+        """,
+        tmp_path,
+    )
+    (hidden, text, steps), (second_hidden, second, more), valid = result
+    assert not hidden
+    assert all(word in text for word in words), text
+    assert steps > 0
+    assert not second_hidden
+    assert "not complete" in second
+    assert more >= steps
+    assert valid["league"] in {league.id for league in LEAGUES}
+    assert valid["skills"][1] in {0.5, 0.7}
 
 
 def test_a_dropped_policy_plays_and_a_wrong_one_is_refused(tmp_path: Path) -> None:

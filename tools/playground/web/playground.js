@@ -14,7 +14,7 @@ class Playground {
     this.data = data;
     this.inputs = new Inputs(data.keys);
     this.files = {}; // dropped policies by name
-    this.choices = { league: data.leagues[0].id, sides: [null, null], skills: [1, 0.7], seed: 1, conditions: {} };
+    this.choices = defaultChoices(data.leagues);
     this.driven = -1;
     this.paused = false;
     this.debt = 0; // seconds of play that are due
@@ -25,6 +25,7 @@ class Playground {
     this.last = null;
     this.drag = null;
     this.panel = new ConditionsPanel($("sliders"), () => this.changeConditions());
+    fill($("speed"), SPEEDS, "1");
     this.fillChoices();
     this.listen();
   }
@@ -37,7 +38,6 @@ class Playground {
 
   fillChoices() {
     fill($("league"), this.data.leagues.map((league) => [league.id, league.name]), this.choices.league);
-    fill($("speed"), SPEEDS, "1");
     this.fillSides();
   }
 
@@ -287,9 +287,33 @@ class Playground {
 
   // -- Links and files ---------------------------------------------------------------------------
 
+  /** Begin the match of a link. Defaults replace what it has wrong, and the page says what that is. */
+  restore(text) {
+    const shared = readSituation(text);
+    const { choices, wrong } = checkedChoices(shared?.choices ?? {}, this.data.leagues);
+    if (!shared && text.length > 1) {
+      wrong.push("it is not complete");
+      if (this.match) Object.assign(choices, this.choices); // a match goes on
+    }
+    this.choices = choices;
+    this.panel.set(choices.conditions);
+    this.fillChoices();
+    try {
+      if (shared || !this.match) this.begin(shared?.numbers);
+    } catch (error) {
+      wrong.push(error.message);
+      this.begin();
+    }
+    if (wrong.length) this.say(`Not all of the link can be shown: ${wrong.join("; ")}`);
+  }
+
+  /** End of an address that shows this situation. */
+  link() {
+    return situationText(this.choices, this.match.situation());
+  }
+
   async share() {
-    const text = situationText(this.choices, this.match.situation());
-    history.replaceState(null, "", text);
+    history.replaceState(null, "", this.link());
     try {
       await navigator.clipboard.writeText(location.href);
       this.say("The link is copied");
@@ -331,6 +355,7 @@ class Playground {
 
   listen() {
     window.addEventListener("resize", () => this.resize());
+    window.addEventListener("hashchange", () => this.restore(location.hash));
     $("league").addEventListener("change", (event) => {
       this.choices.league = event.target.value;
       this.choices.sides = [null, null];
@@ -526,14 +551,7 @@ async function moduleBytes() {
 async function start() {
   const engine = await Engine.start(await moduleBytes());
   const playground = new Playground(engine, JSON.parse($("data").textContent));
-  const shared = readSituation(location.hash);
-  if (shared) {
-    playground.choices = { ...playground.choices, ...shared.choices };
-    playground.panel.set(playground.choices.conditions);
-    playground.fillChoices();
-  }
-  const begun = playground.attempt(() => playground.begin(shared?.numbers));
-  if (!begun) playground.begin();
+  playground.restore(location.hash);
   requestAnimationFrame((time) => playground.picture(time));
   return playground;
 }
