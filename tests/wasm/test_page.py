@@ -260,7 +260,14 @@ def test_a_dropped_policy_plays_and_a_wrong_one_is_refused(tmp_path: Path) -> No
         const bytes = Uint8Array.from(atob({json.dumps(file)}), (letter) => letter.charCodeAt(0));
         const message = () => document.getElementById("message");
         player.addPolicy("mine", bytes);
-        const refused = [message().textContent, player.choices.sides[0]];
+        const values = [...document.getElementById("side-0").options].map(({{ value }}) => value);
+        const refused = [message().textContent, player.choices.sides[0], values];
+        const {{ match }} = player;
+        player.choices.sides[1] = "file:none";
+        const begun = player.attempt(() => player.begin());
+        player.choices.sides[1] = "scripted";
+        player.step();
+        refused.push(begun, player.match === match);
         document.getElementById("league").value = "vss";
         document.getElementById("league").dispatchEvent(new Event("change"));
         player.addPolicy("mine", bytes);
@@ -272,7 +279,7 @@ def test_a_dropped_policy_plays_and_a_wrong_one_is_refused(tmp_path: Path) -> No
         tmp_path,
     )
     assert "VSSSelfPlay-v0" in result["refused"][0]
-    assert result["refused"][1] == "scripted"
+    assert result["refused"][1:] == ["scripted", ["scripted", "idle"], False, True]
     assert result["side"] == "file:mine"
     assert result["hidden"]
     assert result["size"] > 1000

@@ -70,10 +70,16 @@ class Playground {
     const count = league.robots;
     const setup = { field: league.field, blue: count, yellow: count, seed: choices.seed, conditions: conditionsOf(choices.conditions) };
     const created = this.engine.newMatch(setup);
+    try {
+      for (const team of [0, 1]) this.giveSide(created, team);
+      if (numbers?.length) created.resume(numbers);
+    } catch (error) {
+      created.remove(); // the match before goes on
+      throw error;
+    }
     this.match?.remove();
     this.match = created;
-    for (const team of [0, 1]) this.setSide(team);
-    if (numbers?.length) this.match.resume(numbers);
+    this.showNames();
     const scene = data.scenes[league.field];
     this.scene = { ...scene, nBlue: count, robots: new Array(2 * count).fill(scene.robots[0]) };
     this.report = this.match.report();
@@ -94,12 +100,20 @@ class Playground {
   }
 
   setSide(team) {
-    const { match, choices } = this;
+    this.giveSide(this.match, team);
+    this.showNames();
+  }
+
+  giveSide(match, team) {
+    const { choices } = this;
     const side = choices.sides[team];
     if (side === "scripted") match.setScripted(team, Number(choices.skills[team]));
     else if (side === "idle") match.setIdle(team);
     else match.setNetwork(team, this.files[side.slice(5)] ?? this.policyFile(side));
-    $(team ? "name-yellow" : "name-blue").textContent = this.sideName(team);
+  }
+
+  showNames() {
+    for (const [team, id] of ["name-blue", "name-yellow"].entries()) $(id).textContent = this.sideName(team);
   }
 
   policyFile(id) {
@@ -156,11 +170,13 @@ class Playground {
     return this.hasSenses ? this.match.row("blue") : null;
   }
 
+  /** Let blue play a policy file; one that cannot play here is not kept. */
   addPolicy(name, bytes) {
+    if (!this.attempt(() => this.match.setNetwork(0, bytes))) return;
     this.files[name] = bytes;
+    this.choices.sides[0] = `file:${name}`;
     this.fillSides();
-    $("side-0").value = `file:${name}`;
-    this.chooseSide(0, `file:${name}`);
+    this.showNames();
   }
 
   // -- A person ----------------------------------------------------------------------------------
@@ -357,10 +373,12 @@ class Playground {
     window.addEventListener("resize", () => this.resize());
     window.addEventListener("hashchange", () => this.restore(location.hash));
     $("league").addEventListener("change", (event) => {
-      this.choices.league = event.target.value;
-      this.choices.sides = [null, null];
+      const before = this.choices;
+      this.choices = { ...before, league: event.target.value, sides: [null, null] };
       this.fillSides();
-      this.attempt(() => this.begin());
+      if (this.attempt(() => this.begin())) return;
+      this.choices = before;
+      this.fillChoices();
     });
     for (const team of [0, 1]) {
       $(`side-${team}`).addEventListener("change", (event) => this.chooseSide(team, event.target.value));
