@@ -90,6 +90,7 @@ def test_a_person_plays_and_pulls_the_ball(tmp_path: Path, width: int, height: i
         document.getElementById("side-0").dispatchEvent(new Event("change"));
         for (let step = 0; step < 120; step++) player.step();
         const before = [...player.live.newest];
+        const name = document.getElementById("name-blue").textContent;
         press("d");
         for (let step = 0; step < 40; step++) player.step();
         const robot = player.driven;
@@ -102,12 +103,14 @@ def test_a_person_plays_and_pulls_the_ball(tmp_path: Path, width: int, height: i
         for (let step = 0; step < 20; step++) player.step();
         await wait(300);
         const wide = document.documentElement.scrollWidth <= window.innerWidth;
-        return { robot, moved, pull, ball, wide, sensed: player.live.sensedNumbers !== null };
+        const sensed = player.live.sensedNumbers !== null;
+        return { robot, moved, pull, ball, wide, name, sensed };
         """,
         tmp_path,
         width=width,
         height=height,
     )
+    assert result["name"] == "nobody"
     assert 0 <= result["robot"] < LEAGUES[0].robots
     assert result["moved"] > 0.3
     assert result["pull"]

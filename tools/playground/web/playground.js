@@ -124,6 +124,7 @@ class Playground {
 
   sideName(team) {
     const side = this.choices.sides[team];
+    if (side === "idle") return "nobody";
     if (side === "scripted") return `scripted ${Number(this.choices.skills[team]).toFixed(2)}`;
     const policy = this.league.policies.find(({ id }) => id === side);
     return policy?.name ?? side.replace(/^file:/, "");
