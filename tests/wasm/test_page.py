@@ -160,6 +160,32 @@ def test_the_keyboard_drives_after_choices_by_pointer(tmp_path: Path) -> None:
     assert result["after"] == "BODY"
 
 
+def test_only_sliders_of_vision_bring_cameras(tmp_path: Path) -> None:
+    result = shown(
+        """
+        const results = [];
+        for (const id of ["command", "radio", "delay", "noise", "loss"]) {
+          player.panel.set({ [id]: 10 });
+          player.changeConditions();
+          for (let step = 0; step < 40; step++) player.step();
+          const [state, known] = ["state", "blue"].map((name) => [...player.match.row(name)]);
+          const { sensing } = JSON.parse(player.match.configuration());
+          const same = state.join() === known.join();
+          results.push([id, same, player.hasSenses, sensing.frame_rate, sensing.tracker]);
+        }
+        return results;
+        """,
+        tmp_path,
+    )
+    assert result == [
+        ["command", True, False, 0, 0],
+        ["radio", True, False, 0, 0],
+        ["delay", False, True, 60, 1],
+        ["noise", False, True, 60, 1],
+        ["loss", False, True, 60, 1],
+    ]
+
+
 def test_a_held_key_acts_once(tmp_path: Path) -> None:
     result = shown(
         """

@@ -164,7 +164,7 @@ class Playground {
   }
 
   get hasSenses() {
-    return Object.keys(conditionsOf(this.choices.conditions).sensing).length > 0;
+    return seesThroughCameras(this.choices.conditions);
   }
 
   sensed() {
