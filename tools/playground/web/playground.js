@@ -2,7 +2,7 @@
 
 const STEP = 0.025; // seconds of a control step
 const BUDGET = 10; // milliseconds of a picture in which steps may be played
-const SPEEDS = [["0.25", "¼ ×"], ["0.5", "½ ×"], ["1", "1 ×"], ["2", "2 ×"], ["4", "4 ×"], ["0", "as fast as possible"]];
+const SPEEDS = [["0.25", "¼ ×"], ["0.5", "½ ×"], ["1", "1 ×"], ["2", "2 ×"], ["4", "4 ×"], ["0", "fastest"]];
 const THROW = 6; // m/s, the fastest ball that a drag throws
 const MOST_EVENTS = 60;
 
