@@ -9,7 +9,10 @@ from typing import Any
 
 import pytest
 
+import rsoccer
+from rsoccer.policies import make_policy
 from rsoccer.policies.trained import FOLDER
+from rsoccer.replay import Replay
 from tests.replay.browser import Shown, show
 from tests.wasm.engine import MODULE
 from tests.wasm.test_bits import GOLDEN
@@ -303,7 +306,11 @@ def test_a_dropped_policy_plays_and_a_wrong_one_is_refused(tmp_path: Path) -> No
         for (let step = 0; step < 100; step++) player.step();
         const replay = await player.replayFile();
         const side = player.choices.sides[0], hidden = message().hidden;
-        return {{ refused, side, hidden, size: replay.length }};
+        document.getElementById("league").value = "ssl_3";
+        document.getElementById("league").dispatchEvent(new Event("change"));
+        player.chooseSide(1, "idle");
+        const base64 = btoa(String.fromCharCode(...await player.replayFile()));
+        return {{ refused, side, hidden, size: replay.length, base64 }};
         """,
         tmp_path,
     )
@@ -312,3 +319,11 @@ def test_a_dropped_policy_plays_and_a_wrong_one_is_refused(tmp_path: Path) -> No
     assert result["side"] == "file:mine"
     assert result["hidden"]
     assert result["size"] > 1000
+    (tmp_path / "match.rsr").write_bytes(base64.b64decode(result["base64"]))
+    controllers = Replay.load(tmp_path / "match.rsr").controllers
+    assert controllers == {
+        **{f"blue_{robot}": "scripted:1" for robot in range(3)},
+        **{f"yellow_{robot}": "zero" for robot in range(3)},
+    }
+    task = rsoccer.make_task("SSLMatch-v0")
+    assert [make_policy(name, task) for name in controllers.values() if name]

@@ -347,7 +347,7 @@ class Playground {
     const controllers = {};
     for (let i = 0; i < 2 * league.robots; i++) {
       const [team, name] = i < league.robots ? [0, `blue_${i}`] : [1, `yellow_${i - league.robots}`];
-      controllers[name] = this.choices.sides[team];
+      controllers[name] = this.controllerName(team);
     }
     return this.recorder.file({
       package: data.version,
@@ -358,6 +358,13 @@ class Playground {
       config: this.match.configuration(),
       commandColumns: data.commandColumns[league.scripted ? "omni" : "differential"],
     });
+  }
+
+  /** Name of a side's policy in Python; null for a trained one, which has none for this task. */
+  controllerName(team) {
+    const { sides, skills } = this.choices;
+    if (sides[team] === "idle") return "zero";
+    return sides[team] === "scripted" ? `scripted:${skills[team]}` : null;
   }
 
   async save() {
