@@ -8,7 +8,9 @@ from pathlib import Path
 import pytest
 
 import rsoccer
+from rsoccer.human import keyboard
 from rsoccer.policies.trained import FOLDER
+from tools.playground.keys import key_words, keys
 from tools.playground.page import LEAGUES, SCRIPTS, WEB, data, to_html, web_part
 from tools.site import playground
 
@@ -39,6 +41,21 @@ def test_choices_have_scenes_and_policies_of_the_package() -> None:
         for policy, shown in zip(league.policies, given["policies"], strict=True):
             assert base64.b64decode(shown["file"]) == (FOLDER / policy.file).read_bytes()
     assert sum(len(league.policies) for league in LEAGUES) >= 3
+
+
+def test_keys_are_those_of_play() -> None:
+    given = keys()
+    assert [given["pass"], given["chip"]] == [keyboard.PASS, keyboard.CHIP]
+    assert given["kick"] == " "
+    assert given["slow"] == ["shift"]
+    assert given["commands"] == {"next_robot": "tab", "pause": "p", "reset": "r"}
+    assert given["passKick"] == keyboard.PASS_KICK
+    assert len(given["moves"]) == len(keyboard.MOVES)
+    assert given["moves"]["arrowup"] == keyboard.MOVES["up"]
+    assert data()["keys"] == given
+    assert f"{key_words()}," in to_html("")
+    text = (Path(__file__).parents[2] / "docs" / "playground.md").read_text()
+    assert f"{key_words()}," in " ".join(text.split())
 
 
 def test_the_site_shows_the_playground_where_it_was_built(

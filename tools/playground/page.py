@@ -20,6 +20,7 @@ from rsoccer.render.referee_floor import (
 from rsoccer.render.words import side_of
 from rsoccer.replay import page
 from rsoccer.replay.quantized import STEPS
+from tools.playground.keys import key_words, keys
 
 WEB: Final = Path(__file__).parent / "web"
 """Parts of the page that are its own."""
@@ -100,6 +101,7 @@ def to_html(module: str) -> str:
         "data": page.to_json(data()),
         "module": module,
         "about": html.escape(about),
+        "keys": html.escape(key_words()),
     }
     return page.fill(web_part("page.html"), parts)
 
@@ -123,6 +125,7 @@ def data() -> dict[str, Any]:
             "opacity": {"area": AREA_TINT, "fill": FILL, "edge": EDGE, "mayTouch": MAY_TOUCH},
             "markColors": {side_of(team): color[:3] for team, color in TEAM_COLORS.items()},
         },
+        "keys": keys(),
         "steps": STEPS,
         "commandColumns": {name: COMMAND_COLUMNS[name] for name in ("differential", "omni")},
     }

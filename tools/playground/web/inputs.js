@@ -1,34 +1,30 @@
-// Keyboard, gamepad and touch as controls of one robot; keys as in `rsoccer play`.
+// Keyboard, gamepad and touch as controls of one robot; keys are those of `rsoccer play`.
 
-const MOVES = {
-  w: [0, 1, 0], arrowup: [0, 1, 0],
-  s: [0, -1, 0], arrowdown: [0, -1, 0],
-  a: [-1, 0, 0], arrowleft: [-1, 0, 0],
-  d: [1, 0, 0], arrowright: [1, 0, 0],
-  q: [0, 0, 1], e: [0, 0, -1],
-};
-const PASS_KICK = 0.5; // of the fastest kick
 const DEAD_ZONE = 0.15; // deflection of a stick that counts as none
 const TURN_GAIN = 2; // turn for each radian between heading and stick
 
 class Inputs {
-  constructor() {
+  /** `keys` has keys of movements, kicker, dribbler and slow, and the speed of a pass. */
+  constructor(keys) {
+    this.keys = keys;
     this.held = new Set();
     this.tapped = new Set(); // pressed since the last reading
     this.stick = null; // deflection of the stick on the screen, field coordinates
     this.buttons = { kick: false, chip: false };
-    this.dribbles = true;
+    this.dribbles = false;
   }
 
-  /** True if the key is one of the robot's. */
-  press(key) {
-    const name = key.toLowerCase();
-    const known = name in MOVES || [" ", "c", "shift", "v", "x"].includes(name);
-    if (!known) return false;
-    if (name === "v") this.dribbles = !this.dribbles;
+  /** True if the key, in lower case, is one of the robot's. */
+  has(name) {
+    const { moves, kick, pass, chip, dribble, slow } = this.keys;
+    return Object.hasOwn(moves, name) || [kick, pass, chip, dribble, ...slow].includes(name);
+  }
+
+  /** Note that a key of the robot went down. */
+  press(name) {
+    if (name === this.keys.dribble) this.dribbles = !this.dribbles;
     this.held.add(name);
     this.tapped.add(name);
-    return true;
   }
 
   release(key) {
@@ -44,7 +40,7 @@ class Inputs {
 
   /** Whether a person moves or kicks. */
   get active() {
-    const moving = Object.keys(MOVES).some((key) => this.held.has(key));
+    const moving = Object.keys(this.keys.moves).some((key) => this.held.has(key));
     return moving || this.stick !== null || this.buttons.kick || this.buttons.chip || this.pad !== null;
   }
 
@@ -62,7 +58,7 @@ class Inputs {
   controls(heading, wheels) {
     const is = (key) => this.held.has(key) || this.tapped.has(key);
     let [right, up, turn] = [0, 0, 0];
-    for (const [key, move] of Object.entries(MOVES)) {
+    for (const [key, move] of Object.entries(this.keys.moves)) {
       if (!is(key)) continue;
       right += move[0];
       up += move[1];
@@ -83,18 +79,19 @@ class Inputs {
       if (!turn) turn += toward.turn;
     }
     const limit = (value) => Math.max(-1, Math.min(1, value));
-    const chip = is("c") || this.buttons.chip || pressed(1);
-    const full = is(" ") || this.buttons.kick || pressed(0);
-    const pass = is("x") || pressed(2);
+    const chip = is(this.keys.chip) || this.buttons.chip || pressed(1);
+    const full = is(this.keys.kick) || this.buttons.kick || pressed(0);
+    const pass = is(this.keys.pass) || pressed(2);
     this.tapped.clear();
     return {
       right: limit(right),
       up: limit(up),
       turn: limit(turn),
-      kick: full || chip ? 1 : pass ? PASS_KICK : 0,
+      kick: full || chip ? 1 : pass ? this.keys.passKick : 0,
       chip,
-      dribble: this.dribbles,
-      slow: is("shift") || pressed(4),
+      // The touch screen has no switch of the dribbler.
+      dribble: this.dribbles || this.stick !== null || pressed(6),
+      slow: this.keys.slow.some(is) || pressed(4),
     };
   }
 }

@@ -2,7 +2,7 @@
 
 const STEP = 0.025; // seconds of a control step
 const BUDGET = 10; // milliseconds of a picture in which steps may be played
-const SPEEDS = [["0.25", "¼ ×"], ["0.5", "½ ×"], ["1", "1 ×"], ["2", "2 ×"], ["4", "4 ×"], ["0", "as fast as possible"]];
+const SPEEDS = [["0.25", "¼ ×"], ["0.5", "½ ×"], ["1", "1 ×"], ["2", "2 ×"], ["4", "4 ×"], ["0", "fastest"]];
 const THROW = 6; // m/s, the fastest ball that a drag throws
 const MOST_EVENTS = 60;
 
@@ -12,9 +12,9 @@ class Playground {
   constructor(engine, data) {
     this.engine = engine;
     this.data = data;
-    this.inputs = new Inputs();
+    this.inputs = new Inputs(data.keys);
     this.files = {}; // dropped policies by name
-    this.choices = { league: data.leagues[0].id, sides: [null, null], skills: [1, 0.7], seed: 1, conditions: {} };
+    this.choices = defaultChoices(data.leagues);
     this.driven = -1;
     this.paused = false;
     this.debt = 0; // seconds of play that are due
@@ -25,6 +25,7 @@ class Playground {
     this.last = null;
     this.drag = null;
     this.panel = new ConditionsPanel($("sliders"), () => this.changeConditions());
+    fill($("speed"), SPEEDS, "1");
     this.fillChoices();
     this.listen();
   }
@@ -37,7 +38,6 @@ class Playground {
 
   fillChoices() {
     fill($("league"), this.data.leagues.map((league) => [league.id, league.name]), this.choices.league);
-    fill($("speed"), SPEEDS, "1");
     this.fillSides();
   }
 
@@ -70,10 +70,16 @@ class Playground {
     const count = league.robots;
     const setup = { field: league.field, blue: count, yellow: count, seed: choices.seed, conditions: conditionsOf(choices.conditions) };
     const created = this.engine.newMatch(setup);
+    try {
+      for (const team of [0, 1]) this.giveSide(created, team);
+      if (numbers?.length) created.resume(numbers);
+    } catch (error) {
+      created.remove(); // the match before goes on
+      throw error;
+    }
     this.match?.remove();
     this.match = created;
-    for (const team of [0, 1]) this.setSide(team);
-    if (numbers?.length) this.match.resume(numbers);
+    this.showNames();
     const scene = data.scenes[league.field];
     this.scene = { ...scene, nBlue: count, robots: new Array(2 * count).fill(scene.robots[0]) };
     this.report = this.match.report();
@@ -94,12 +100,20 @@ class Playground {
   }
 
   setSide(team) {
-    const { match, choices } = this;
+    this.giveSide(this.match, team);
+    this.showNames();
+  }
+
+  giveSide(match, team) {
+    const { choices } = this;
     const side = choices.sides[team];
     if (side === "scripted") match.setScripted(team, Number(choices.skills[team]));
     else if (side === "idle") match.setIdle(team);
     else match.setNetwork(team, this.files[side.slice(5)] ?? this.policyFile(side));
-    $(team ? "name-yellow" : "name-blue").textContent = this.sideName(team);
+  }
+
+  showNames() {
+    for (const [team, id] of ["name-blue", "name-yellow"].entries()) $(id).textContent = this.sideName(team);
   }
 
   policyFile(id) {
@@ -110,6 +124,7 @@ class Playground {
 
   sideName(team) {
     const side = this.choices.sides[team];
+    if (side === "idle") return "nobody";
     if (side === "scripted") return `scripted ${Number(this.choices.skills[team]).toFixed(2)}`;
     const policy = this.league.policies.find(({ id }) => id === side);
     return policy?.name ?? side.replace(/^file:/, "");
@@ -149,18 +164,20 @@ class Playground {
   }
 
   get hasSenses() {
-    return Object.keys(conditionsOf(this.choices.conditions).sensing).length > 0;
+    return seesThroughCameras(this.choices.conditions);
   }
 
   sensed() {
     return this.hasSenses ? this.match.row("blue") : null;
   }
 
+  /** Let blue play a policy file; one that cannot play here is not kept. */
   addPolicy(name, bytes) {
+    if (!this.attempt(() => this.match.setNetwork(0, bytes))) return;
     this.files[name] = bytes;
+    this.choices.sides[0] = `file:${name}`;
     this.fillSides();
-    $("side-0").value = `file:${name}`;
-    this.chooseSide(0, `file:${name}`);
+    this.showNames();
   }
 
   // -- A person ----------------------------------------------------------------------------------
@@ -287,9 +304,33 @@ class Playground {
 
   // -- Links and files ---------------------------------------------------------------------------
 
+  /** Begin the match of a link. Defaults replace what it has wrong, and the page says what that is. */
+  restore(text) {
+    const shared = readSituation(text);
+    const { choices, wrong } = checkedChoices(shared?.choices ?? {}, this.data.leagues);
+    if (!shared && text.length > 1) {
+      wrong.push("it is not complete");
+      if (this.match) Object.assign(choices, this.choices); // a match goes on
+    }
+    this.choices = choices;
+    this.panel.set(choices.conditions);
+    this.fillChoices();
+    try {
+      if (shared || !this.match) this.begin(shared?.numbers);
+    } catch (error) {
+      wrong.push(error.message);
+      this.begin();
+    }
+    if (wrong.length) this.say(`Not all of the link can be shown: ${wrong.join("; ")}`);
+  }
+
+  /** End of an address that shows this situation. */
+  link() {
+    return situationText(this.choices, this.match.situation());
+  }
+
   async share() {
-    const text = situationText(this.choices, this.match.situation());
-    history.replaceState(null, "", text);
+    history.replaceState(null, "", this.link());
     try {
       await navigator.clipboard.writeText(location.href);
       this.say("The link is copied");
@@ -306,7 +347,7 @@ class Playground {
     const controllers = {};
     for (let i = 0; i < 2 * league.robots; i++) {
       const [team, name] = i < league.robots ? [0, `blue_${i}`] : [1, `yellow_${i - league.robots}`];
-      controllers[name] = this.choices.sides[team];
+      controllers[name] = this.controllerName(team);
     }
     return this.recorder.file({
       package: data.version,
@@ -317,6 +358,13 @@ class Playground {
       config: this.match.configuration(),
       commandColumns: data.commandColumns[league.scripted ? "omni" : "differential"],
     });
+  }
+
+  /** Name of a side's policy in Python; null for a trained one, which has none for this task. */
+  controllerName(team) {
+    const { sides, skills } = this.choices;
+    if (sides[team] === "idle") return "zero";
+    return sides[team] === "scripted" ? `scripted:${skills[team]}` : null;
   }
 
   async save() {
@@ -331,11 +379,14 @@ class Playground {
 
   listen() {
     window.addEventListener("resize", () => this.resize());
+    window.addEventListener("hashchange", () => this.restore(location.hash));
     $("league").addEventListener("change", (event) => {
-      this.choices.league = event.target.value;
-      this.choices.sides = [null, null];
+      const before = this.choices;
+      this.choices = { ...before, league: event.target.value, sides: [null, null] };
       this.fillSides();
-      this.attempt(() => this.begin());
+      if (this.attempt(() => this.begin())) return;
+      this.choices = before;
+      this.fillChoices();
     });
     for (const team of [0, 1]) {
       $(`side-${team}`).addEventListener("change", (event) => this.chooseSide(team, event.target.value));
@@ -345,10 +396,7 @@ class Playground {
       });
       $(`skill-${team}`).addEventListener("change", () => this.attempt(() => this.setSide(team)));
     }
-    $("driven").addEventListener("change", (event) => {
-      this.drive(Number(event.target.value));
-      event.target.blur();
-    });
+    $("driven").addEventListener("change", (event) => this.drive(Number(event.target.value)));
     $("play").addEventListener("click", () => this.togglePause());
     $("restart").addEventListener("click", () => this.newMatch());
     $("ideal").addEventListener("click", () => {
@@ -358,6 +406,7 @@ class Playground {
     $("share").addEventListener("click", () => this.share());
     $("save").addEventListener("click", () => this.save().catch((error) => this.say(error.message)));
     $("policy").addEventListener("change", (event) => this.readFiles(event.target.files));
+    this.listenToFocus();
     this.listenToKeys();
     this.listenToPointers();
     this.listenToDrops();
@@ -374,18 +423,38 @@ class Playground {
     this.attempt(() => this.begin());
   }
 
+  /** A choice by pointer gives the keyboard back to the robot; one by keys keeps it, to go on with them. */
+  listenToFocus() {
+    let keyed = false;
+    document.addEventListener("pointerdown", () => (keyed = false), true);
+    document.addEventListener("keydown", () => (keyed = true), true);
+    for (const kind of ["change", "click"]) {
+      document.addEventListener(kind, (event) => {
+        const chosen = event.target.closest(kind === "click" ? "button" : "select, input");
+        if (chosen && !keyed) chosen.blur();
+      });
+    }
+  }
+
   listenToKeys() {
     window.addEventListener("keydown", (event) => {
-      const typing = /^(INPUT|SELECT|TEXTAREA)$/.test(event.target.tagName);
-      if (typing || event.ctrlKey || event.metaKey || event.altKey) return;
+      if (event.ctrlKey || event.metaKey || event.altKey) return;
       const key = event.key.toLowerCase();
+      const control = event.target.closest?.("select, input, button");
+      if (control && event.key === "Escape") control.blur();
+      const pressesButton = control?.tagName === "BUTTON" && (key === " " || key === "enter");
+      if (pressesButton || (control && control.tagName !== "BUTTON")) return;
       const robots = 2 * this.league.robots;
-      if (key === "tab" && this.driven >= 0) this.drive((this.driven + 1) % robots);
-      else if (key === "p") this.togglePause();
-      else if (key === "r") this.newMatch();
-      else if (event.key === "Escape") this.drive(-1);
-      else if (!this.inputs.press(event.key)) return;
+      const { commands } = this.data.keys;
+      let action = null;
+      if (key === commands.next_robot && this.driven >= 0) action = () => this.drive((this.driven + 1) % robots);
+      else if (key === commands.pause) action = () => this.togglePause();
+      else if (key === commands.reset) action = () => this.newMatch();
+      else if (key === "escape") action = () => this.drive(-1);
+      else if (this.inputs.has(key)) action = () => this.inputs.press(key);
+      if (!action) return;
       event.preventDefault();
+      if (!event.repeat) action(); // a key that is held acts once
     });
     window.addEventListener("keyup", (event) => this.inputs.release(event.key));
     window.addEventListener("blur", () => this.inputs.releaseAll());
@@ -508,14 +577,7 @@ async function moduleBytes() {
 async function start() {
   const engine = await Engine.start(await moduleBytes());
   const playground = new Playground(engine, JSON.parse($("data").textContent));
-  const shared = readSituation(location.hash);
-  if (shared) {
-    playground.choices = { ...playground.choices, ...shared.choices };
-    playground.panel.set(playground.choices.conditions);
-    playground.fillChoices();
-  }
-  const begun = playground.attempt(() => playground.begin(shared?.numbers));
-  if (!begun) playground.begin();
+  playground.restore(location.hash);
   requestAnimationFrame((time) => playground.picture(time));
   return playground;
 }
