@@ -83,8 +83,8 @@ class Settings:
             the SSL tell, and before them yes for FIRASim and no for the others.
         referee: one of `REFEREES`.
         limits: greatest speeds.
-        is_synchronous: whether the simulator waits for commands after each frame, as `rsoccer serve
-            --speed max` does. Then no time passes but that of its frames.
+        is_synchronous: whether the simulator waits for commands after each frame, as
+            `rsoccer serve --speed max` does. Then no time passes but that of its frames.
         vision_timeout: time without a frame after which robots stop, s; None for 0.2, and 5 with a
             simulator that waits.
         patience: time without what is needed to go on until a connection gives up, s.
