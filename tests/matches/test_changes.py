@@ -247,8 +247,8 @@ def test_a_saved_state_has_the_given_starts() -> None:
     taken = Matches(TASK, N, 1, max_steps=4)
     taken.take_over(state, 1)
     stepped(taken, 2)
-    given = {row.tobytes() for row in np.float32(other.frame.rows)}
-    assert all(row.tobytes() in given for row in np.float32(taken.frame.rows))
+    given = {row.tobytes() for row in other.frame.rows}
+    assert all(row.tobytes() in given for row in taken.frame.rows)
 
 
 def test_a_saved_state_without_starts_brings_those_of_the_task_back() -> None:

@@ -1,3 +1,5 @@
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -45,10 +47,11 @@ def test_other_deviations_are_refused(text: str, message: str) -> None:
 
 
 def test_deviations_of_numbers_of_numpy_have_a_text_that_can_be_read() -> None:
-    deviation = Deviation("exp", (np.float64(-20.0), np.float32(2.0)))
+    deviation = Deviation("exp", (np.float64(-20.0), np.float64(2.0)))
     assert deviation.text == "exp -20 2"
     assert Deviation.from_text(deviation.text) == deviation
-    assert Deviation("softplus", (np.int64(1), 0, np.float32(0.25))).text == "softplus 1 0 0.25"
+    numbers: Any = (np.int64(1), 0, np.float32(0.25))
+    assert Deviation("softplus", numbers).text == "softplus 1 0 0.25"
 
 
 def test_gaussians_are_clipped_and_squashed_ones_are_not() -> None:
