@@ -137,6 +137,9 @@ def measured(
         condition: name of the condition.
         matches: number of matches.
         threads: threads of the simulator; None for one per available processor.
+
+    Raises:
+        RuntimeError: too few matches for an interval.
     """
     start = time.perf_counter()
     found = evaluate(
