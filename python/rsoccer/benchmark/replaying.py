@@ -74,7 +74,7 @@ def _is_exact(entry: Entry, policy: str) -> bool:
 
 
 def _difference(row: Row, again: Row, exact: bool) -> str | None:
-    """What was expected of a row, and what it has; None if it may be of the same matches."""
+    """Difference of a row from its new matches, in words; None if it may be of the same ones."""
     if exact:
         for name in _EXACT:
             expected, got = getattr(again, name), getattr(row, name)
