@@ -3,8 +3,8 @@
 import os
 import runpy
 import signal
-import time
 import sys
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
