@@ -129,7 +129,7 @@ def test_an_interval_follows_from_the_counts_of_a_goal_score() -> None:
     for each in rows:
         each.update(metric="goal_score", wins=100, draws=0, losses=100, score=0.0)
         each.update(low=-0.14, high=0.14)
-    # Where one side wins all and the other loses all, no resample differs.
+    # No resample differs if one side wins all and the other loses all.
     rows[1].update(low=0.0, high=0.0)
     found["tasks"] = {"SSLSelfPlay-v0": rows}
     assert problems(found) == []

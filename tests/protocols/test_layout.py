@@ -63,7 +63,7 @@ def test_exchanged_colors_are_those_of_the_wire_alone() -> None:
         made = WireLayout(
             SSL, blue_ids=(4, 2, 9), blue_on_positive_half=positive, colors_exchanged=True
         )
-        # What is blue in the package, with its goal at -x, is yellow on the wire.
+        # Blue of the package, with its goal at -x, is yellow on the wire.
         assert made.identity(1) == (YELLOW, 2)
         assert made.slot(YELLOW, 2) == 1
         assert list(made.slots(YELLOW)) == [0, 1, 2]

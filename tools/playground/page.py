@@ -9,16 +9,7 @@ from typing import Any, Final, NamedTuple
 import rsoccer
 from rsoccer._core import COMMAND_COLUMNS, SimConfig
 from rsoccer.policies.trained import FOLDER
-from rsoccer.render.referee_floor import (
-    AREA_TINT,
-    EDGE,
-    FILL,
-    MAY_TOUCH,
-    TEAM_COLORS,
-    area_outlines,
-)
-from rsoccer.render.words import side_of
-from rsoccer.replay import page
+from rsoccer.replay import match_page, page
 from rsoccer.replay.quantized import STEPS
 from tools.playground.keys import key_words, keys
 
@@ -31,6 +22,8 @@ SCRIPTS: Final = (
     *("conditions.js", "playground.js"),
 )
 """Scripts of the playground, in their order."""
+NO_ICON: Final = '<link rel="icon" href="data:,">\n'
+"""An empty icon, which a browser would ask a server for."""
 HALF_SECONDS: Final = 300.0
 """Playing time of a half, s: the default of `Setup` in `crates/rsim-match`."""
 
@@ -95,15 +88,13 @@ def to_html(module: str) -> str:
     styles = [page.web_part("style.css"), page.web_part("match.css"), web_part("playground.css")]
     about = f"rSoccer {rsoccer.__version__}: physics, referee and teams run in this page."
     parts = {
-        "colors": page.color_variables(),
-        "style": "".join(styles),
-        "script": "\n".join(scripts),
         "data": page.to_json(data()),
         "module": module,
         "about": html.escape(about),
         "keys": html.escape(key_words()),
     }
-    return page.fill(web_part("page.html"), parts)
+    body = page.fill(web_part("page.html"), parts)
+    return page.document("rSoccer playground", "".join(styles), body, scripts, NO_ICON)
 
 
 def data() -> dict[str, Any]:
@@ -114,17 +105,8 @@ def data() -> dict[str, Any]:
         "halfSeconds": HALF_SECONDS,
         "leagues": [_league(league) for league in LEAGUES],
         "scenes": {name: page.scene(config) for name, config in configs.items()},
-        "areas": {
-            name: [
-                [round(v, 4) for point in outline for v in point]
-                for outline in area_outlines(config.field)
-            ]
-            for name, config in configs.items()
-        },
-        "floor": {
-            "opacity": {"area": AREA_TINT, "fill": FILL, "edge": EDGE, "mayTouch": MAY_TOUCH},
-            "markColors": {side_of(team): color[:3] for team, color in TEAM_COLORS.items()},
-        },
+        "areas": {name: match_page.areas(config.field) for name, config in configs.items()},
+        "floor": match_page.FLOOR,
         "keys": keys(),
         "steps": STEPS,
         "commandColumns": {name: COMMAND_COLUMNS[name] for name in ("differential", "omni")},

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import html
 import http
 import json
 import logging
@@ -241,16 +240,13 @@ def _page(server: Server) -> str:
         events=(),
     )
     content = base64.b64encode(file_format.to_bytes(still, snapshots=False)).decode()
-    title = f"{still.task}: {' - '.join(still.names)}"
-    parts = {
-        "title": html.escape(title),
-        "colors": page.color_variables(),
-        "style": page.web_part("style.css"),
-        "script": "\n".join([*map(page.web_part, _SCRIPTS), _web("live.js")]),
-        "scene": page.to_json(page.scene(still.config)),
-        "replay": content,
-    }
-    return page.fill(_web("live.html"), parts)
+    parts = {"scene": page.to_json(page.scene(still.config)), "replay": content}
+    return page.document(
+        f"{still.task}: {' - '.join(still.names)}",
+        page.web_part("style.css") + _web("live.css"),
+        page.fill(_web("live.html"), parts),
+        [*map(page.web_part, _SCRIPTS), _web("live.js")],
+    )
 
 
 @cache

@@ -173,7 +173,7 @@ class Drive(Imports):
         while clock.now < end and len(session.episodes) < most:
             begun = session.matches.play.steps[0]
             outcome = session.step()
-            # Where bodies stay, an episode may end again and again, as soon as it has begun.
+            # An episode may end as soon as it has begun, again and again, if bodies stay in place.
             if outcome.episodes is not None and (
                 begun >= REPORTED_STEPS or len(session.episodes) == 1
             ):

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any, Final
 
+from rsoccer._core import Field
 from rsoccer.render.referee_floor import (
     AREA_TINT,
     EDGE,
@@ -32,6 +33,11 @@ from rsoccer.replay.recorded import Recorded
 
 DETAILS: Final = ("touch", "kick", "pass", "placement_succeeded", "end")
 """Kinds of events that the list shows on request only."""
+FLOOR: Final[dict[str, Any]] = {
+    "opacity": {"area": AREA_TINT, "fill": FILL, "edge": EDGE, "mayTouch": MAY_TOUCH},
+    "markColors": {side_of(team): color[:3] for team, color in TEAM_COLORS.items()},
+}
+"""Looks of the referee's marks on the floor, as values for JSON."""
 
 
 def match(replay: Recorded) -> dict[str, Any] | None:
@@ -57,13 +63,22 @@ def match(replay: Recorded) -> dict[str, Any] | None:
         "fouls": FOULS,
         "prominent": PROMINENT,
         "details": DETAILS,
-        "areas": [
-            [round(v, 4) for point in outline for v in point]
-            for outline in area_outlines(replay.config.field)
-        ],
-        "opacity": {"area": AREA_TINT, "fill": FILL, "edge": EDGE, "mayTouch": MAY_TOUCH},
-        "markColors": {side_of(team): color[:3] for team, color in TEAM_COLORS.items()},
+        "areas": areas(replay.config.field),
+        **FLOOR,
     }
+
+
+def areas(field: Field) -> list[list[float]]:
+    """Return the outlines of the areas that the page tints, for JSON.
+
+    Args:
+        field: the field.
+
+    Returns:
+        For each area x and y of its points in turn, m.
+    """
+    outlines = area_outlines(field)
+    return [[round(v, 4) for point in outline for v in point] for outline in outlines]
 
 
 def _changes(values: Iterable[tuple[Any, ...]]) -> list[list[Any]]:

@@ -59,16 +59,35 @@ def to_html(replay: Recorded) -> str:
     more = match(replay)
     scripts = SCRIPTS if more is None else (*MATCH_SCRIPTS, *SCRIPTS)
     content = base64.b64encode(file_format.to_bytes(replay, snapshots=False)).decode()
+    style = web_part("style.css") + ("" if more is None else web_part("match.css"))
     parts = {
-        "title": html.escape(f"{replay.task}: {' - '.join(filter(None, replay.names))}"),
-        "colors": color_variables(),
-        "style": web_part("style.css") + ("" if more is None else web_part("match.css")),
-        "script": "\n".join(map(web_part, scripts)),
         "scene": to_json(scene(replay.config) | {"conditions": _conditions(replay)}),
         "match": to_json(more),
         "replay": content,
     }
-    return fill(web_part("page.html"), parts)
+    title = f"{replay.task}: {' - '.join(filter(None, replay.names))}"
+    return document(title, style, fill(web_part("page.html"), parts), map(web_part, scripts))
+
+
+def document(title: str, style: str, body: str, scripts: Iterable[str], head: str = "") -> str:
+    """Return a whole page, which needs no other file.
+
+    Args:
+        title: title of the page.
+        style: style sheet; it can use the variables of `color_variables`.
+        body: content of the page, as HTML.
+        scripts: scripts in their order, which share names.
+        head: further elements of the head, as HTML.
+    """
+    parts = {
+        "title": html.escape(title),
+        "head": head,
+        "colors": color_variables(),
+        "style": style,
+        "body": body,
+        "script": "\n".join(scripts),
+    }
+    return fill(web_part("document.html"), parts)
 
 
 def fill(template: str, parts: Mapping[str, str]) -> str:
