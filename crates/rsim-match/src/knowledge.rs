@@ -1,9 +1,19 @@
 //! Numbers of a configuration that referees and scripted sides read.
 
+use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
 use rsim_core::{Body, Drive, RobotModel, SimConfig};
-use rsim_referee::Lines;
 use rsim_referee::pitch::Pitch;
-use rsim_teams::RobotNumbers;
+use rsim_referee::sight::Layout;
+use rsim_referee::{Lines, RefereeError};
+use rsim_teams::{BallNumbers, RobotNumbers, TeamConfig};
+
+/// Columns of the state rows of a configuration.
+///
+/// # Errors
+/// More robots than a referee can see.
+pub fn layout(config: &SimConfig) -> Result<Layout, RefereeError> {
+    Layout::new(&BALL_COLUMNS, &ROBOT_COLUMNS, config.blue.len(), config.yellow.len())
+}
 
 /// Lines and walls of the field of a configuration.
 pub fn lines(config: &SimConfig) -> Lines {
@@ -39,9 +49,28 @@ pub fn pitch(config: &SimConfig) -> Pitch {
     }
 }
 
+/// Configuration of a scripted side of a skill, for a ball and robots like the first one; `None` without a robot,
+/// and for one that such a side cannot drive: not round, without an omnidirectional drive or a mouth.
+pub fn team_config(config: &SimConfig, layout: Layout, skill: f32) -> Option<TeamConfig> {
+    let ball = &config.ball;
+    Some(TeamConfig {
+        lines: lines(config),
+        layout,
+        time_step: config.time_step,
+        robot: robot_numbers(config.robots().next()?)?,
+        ball: BallNumbers {
+            radius: ball.radius,
+            sliding_deceleration: ball.sliding_deceleration,
+            rolling_deceleration: ball.rolling_deceleration,
+            slide_to_roll_ratio: ball.slide_to_roll_ratio,
+        },
+        skill,
+    })
+}
+
 /// Numbers of a robot that scripted sides read; `None` for one that is not round, without an
 /// omnidirectional drive or without a mouth.
-pub fn robot_numbers(robot: &RobotModel) -> Option<RobotNumbers> {
+fn robot_numbers(robot: &RobotModel) -> Option<RobotNumbers> {
     let (Body::Round { radius, front_distance }, Drive::Omni(drive), Some(mouth)) =
         (robot.body, robot.drive, &robot.mouth)
     else {

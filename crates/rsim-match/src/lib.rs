@@ -19,7 +19,7 @@ mod whole_match;
 
 pub use conditions::Conditions;
 pub use error::MatchError;
-pub use knowledge::{lines, pitch, robot_numbers};
+pub use knowledge::{layout, lines, pitch, team_config};
 pub use network::Network;
 pub use observations::Observations;
 pub use person::Controls;

@@ -4,11 +4,11 @@ use rsim_core::SimConfig;
 use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS, is_absent};
 use rsim_referee::game::Game;
 use rsim_referee::{Referee, Team};
-use rsim_teams::{BallNumbers, ScriptedTeam, TeamConfig};
+use rsim_teams::ScriptedTeam;
 
 use crate::actions::Actions;
 use crate::error::MatchError;
-use crate::knowledge::{lines, robot_numbers};
+use crate::knowledge::team_config;
 use crate::observations::robots_of;
 use crate::player::Player;
 
@@ -46,8 +46,7 @@ impl Side {
         skill: f32,
         seed: u32,
     ) -> Result<Self, MatchError> {
-        let numbers = config.robots().next().and_then(robot_numbers);
-        let Some(robot) = numbers else {
+        let Some(numbers) = team_config(config, referee.layout().clone(), skill) else {
             let got = &config.field.name;
             return Err(MatchError::argument(
                 "side",
@@ -55,20 +54,7 @@ impl Side {
                 &format!("the scripted SSL team on {got}"),
             ));
         };
-        let ball = &config.ball;
-        let team = ScriptedTeam::new(&TeamConfig {
-            lines: lines(config),
-            layout: referee.layout().clone(),
-            time_step: config.time_step,
-            robot,
-            ball: BallNumbers {
-                radius: ball.radius,
-                sliding_deceleration: ball.sliding_deceleration,
-                rolling_deceleration: ball.rolling_deceleration,
-                slide_to_roll_ratio: ball.slide_to_roll_ratio,
-            },
-            skill,
-        })?;
+        let team = ScriptedTeam::new(&numbers)?;
         let mut memory = vec![0.0; team.memory_columns().len()];
         team.begin(&mut memory, seed)?;
         Ok(Self::Scripted(Box::new(team), memory))

@@ -4,14 +4,13 @@ use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
 use rsim_core::streams::words;
 use rsim_core::{Batch, Knowledge, SimConfig};
 use rsim_referee::game::Game;
-use rsim_referee::sight::Layout;
 use rsim_referee::statistics::Statistics;
 use rsim_referee::{Decisions, Referee, Team};
 
 use crate::actions::Actions;
 use crate::conditions::Conditions;
 use crate::error::MatchError;
-use crate::knowledge::pitch;
+use crate::knowledge::{layout, pitch};
 use crate::network::Network;
 use crate::observations::robots_of;
 use crate::person::Controls;
@@ -57,9 +56,7 @@ impl Match {
     /// A setup that cannot be played.
     pub fn new(setup: Setup) -> Result<Self, MatchError> {
         let config = setup.config()?;
-        let (n_blue, n_yellow) = (config.blue.len(), config.yellow.len());
-        let layout = Layout::new(&BALL_COLUMNS, &ROBOT_COLUMNS, n_blue, n_yellow)?;
-        let referee = Referee::new(setup.rules(&config), pitch(&config), layout)?;
+        let referee = Referee::new(setup.rules(&config), pitch(&config), layout(&config)?)?;
         let actions = Actions::new(&config)?;
         let batch = Batch::new(&config, 1, 1)?;
         let mut row = vec![0.0; config.row_size()];

@@ -5,13 +5,11 @@ use std::sync::{Mutex, PoisonError};
 use numpy::{Ix2, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadwriteArray};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
-use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
 use rsim_referee::codes::{COMMANDS, Stage};
 use rsim_referee::config::{League, RefereeConfig};
 use rsim_referee::events::{Event, EventKind};
 use rsim_referee::features::FEATURES;
 use rsim_referee::game::Game;
-use rsim_referee::sight::Layout;
 use rsim_referee::statistics::{Statistics, count_offense, offense_columns};
 use rsim_referee::{Decisions, RefereeError, Team, rules};
 
@@ -56,7 +54,7 @@ impl Referee {
     fn new(config: &SimConfig, rules: String) -> PyResult<Self> {
         let decoded: RefereeConfig = serde_json::from_str(&rules)
             .map_err(|error| PyValueError::new_err(format!("rules: {error}")))?;
-        let layout = layout(config)?;
+        let layout = rsim_match::layout(&config.0).map_err(invalid)?;
         let pitch = rsim_match::pitch(&config.0);
         let counted = Statistics::columns().len();
         let sizes = Sizes {
@@ -275,12 +273,6 @@ fn numbers(world: usize, event: &Event) -> [f32; EVENT] {
         event.position.x,
         event.position.y,
     ]
-}
-
-/// Columns of the state rows of matches.
-fn layout(config: &SimConfig) -> PyResult<Layout> {
-    let sim = &config.0;
-    Layout::new(&BALL_COLUMNS, &ROBOT_COLUMNS, sim.blue.len(), sim.yellow.len()).map_err(invalid)
 }
 
 /// Returns the numbers and switches of a preset of the rules, as JSON.

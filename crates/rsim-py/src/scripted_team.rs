@@ -5,11 +5,9 @@ use std::sync::{Mutex, PoisonError};
 use numpy::{Ix2, PyArray3, PyArrayMethods, PyReadwriteArray};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
 use rsim_referee::Team;
 use rsim_referee::game::Game;
-use rsim_referee::sight::Layout;
-use rsim_teams::{BallNumbers, COMMAND_COLUMNS, TeamConfig};
+use rsim_teams::COMMAND_COLUMNS;
 
 use crate::arrays::{Rows, readable, sizes, values, writeable};
 use crate::config::SimConfig;
@@ -38,26 +36,12 @@ impl ScriptedTeam {
         let Some(robot) = sim.robots().next() else {
             return Err(PyValueError::new_err("config: expected robots, got none"));
         };
-        let Some(numbers) = rsim_match::robot_numbers(robot) else {
+        let layout = rsim_match::layout(sim).map_err(invalid)?;
+        let Some(team) = rsim_match::team_config(sim, layout, skill) else {
             let name = &robot.name;
             return Err(PyValueError::new_err(format!(
                 "config: expected round robots with an omnidirectional drive and a mouth, got {name}"
             )));
-        };
-        let layout =
-            Layout::new(&BALL_COLUMNS, &ROBOT_COLUMNS, n_blue, n_yellow).map_err(invalid)?;
-        let team = TeamConfig {
-            lines: rsim_match::lines(sim),
-            layout,
-            time_step: sim.time_step,
-            robot: numbers,
-            ball: BallNumbers {
-                radius: sim.ball.radius,
-                sliding_deceleration: sim.ball.sliding_deceleration,
-                rolling_deceleration: sim.ball.rolling_deceleration,
-                slide_to_roll_ratio: sim.ball.slide_to_roll_ratio,
-            },
-            skill,
         };
         let team = rsim_teams::ScriptedTeam::new(&team).map_err(invalid)?;
         let memory_size = team.memory_columns().len();

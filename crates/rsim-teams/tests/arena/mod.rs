@@ -3,16 +3,15 @@
 use std::collections::BTreeMap;
 
 use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS, ball_column, robot_column};
-use rsim_core::{Drive, SimConfig, World};
+use rsim_core::{SimConfig, World};
+use rsim_match::{layout, lines, pitch, team_config};
 use rsim_referee::codes::Stage;
 use rsim_referee::config::{Placement, RefereeConfig};
 use rsim_referee::events::EventKind;
 use rsim_referee::game::Game;
-use rsim_referee::pitch::Pitch;
-use rsim_referee::sight::Layout;
 use rsim_referee::statistics::{OFFENSES, Statistics};
-use rsim_referee::{Decisions, Lines, Referee, Team, Vector};
-use rsim_teams::{BallNumbers, COMMAND_COLUMNS, RobotNumbers, ScriptedTeam, TeamConfig};
+use rsim_referee::{Decisions, Referee, Team, Vector};
+use rsim_teams::{COMMAND_COLUMNS, ScriptedTeam};
 
 /// Control steps after which a match is broken off, in case its last half never ends.
 const MAX_STEPS: u32 = 200_000;
@@ -80,13 +79,8 @@ impl Arena {
             early_end_goals: 0.0,
             ..RefereeConfig::preset("ssl_2026_b").expect("a preset")
         };
-        let pitch = Pitch {
-            lines: lines(&config),
-            robot_radius: config.blue[0].bounding_radius(),
-            ball_radius: config.ball.radius,
-            time_step: config.time_step,
-        };
-        let referee = Referee::new(rules, pitch, layout(&config)).expect("valid rules");
+        let layout = layout(&config).expect("all columns");
+        let referee = Referee::new(rules, pitch(&config), layout).expect("valid rules");
         let mut world = World::new(&config).expect("a valid world");
         let mut row = vec![0.0; config.row_size()];
         world.write_row(&mut row);
@@ -227,60 +221,9 @@ fn name(kind: EventKind) -> &'static str {
     found.expect("all kinds are listed").2
 }
 
-fn layout(config: &SimConfig) -> Layout {
-    let (n_blue, n_yellow) = (config.blue.len(), config.yellow.len());
-    Layout::new(&BALL_COLUMNS, &ROBOT_COLUMNS, n_blue, n_yellow).expect("all columns")
-}
-
-fn lines(config: &SimConfig) -> Lines {
-    let field = &config.field;
-    Lines {
-        half_length: field.half_length(),
-        half_width: field.half_width(),
-        half_goal_width: field.goal_width / 2.0,
-        goal_height: field.goal_height,
-        area_depth: field.goal_area_depth,
-        half_area_width: field.goal_area_width / 2.0,
-        inner_area_depth: field.inner_area_depth,
-        half_inner_area_width: field.inner_area_width / 2.0,
-        line_width: field.line_width,
-        corner_leg: field.corner_leg,
-        goal_wall_thickness: field.goal_wall_thickness,
-        center_circle_radius: field.center_circle_radius,
-        penalty_mark_distance: field.penalty_mark_distance,
-        boundary_x: field.half_length() + field.goal_line_margin,
-        boundary_y: field.half_width() + field.touch_line_margin,
-        free_ball_x: field.free_ball_x,
-        free_ball_y: field.free_ball_y,
-    }
-}
-
 /// A scripted side with the numbers of a simulator's first robot and its ball.
 fn side(config: &SimConfig, skill: f32) -> ScriptedTeam {
-    let (robot, ball) = (&config.blue[0], &config.ball);
-    let Drive::Omni(drive) = robot.drive else { panic!("an omnidirectional robot") };
-    let mouth = robot.mouth.expect("it kicks");
-    let config = TeamConfig {
-        lines: lines(config),
-        layout: layout(config),
-        time_step: config.time_step,
-        robot: RobotNumbers {
-            radius: robot.bounding_radius(),
-            front_distance: robot.front_distance(),
-            max_speed: drive.max_speed,
-            max_acceleration: drive.max_acceleration,
-            max_deceleration: drive.max_deceleration,
-            max_angular_velocity: robot.top_angular_velocity(),
-            max_kick_speed: mouth.max_kick_speed,
-            max_chip_speed: mouth.max_chip_speed,
-        },
-        ball: BallNumbers {
-            radius: ball.radius,
-            sliding_deceleration: ball.sliding_deceleration,
-            rolling_deceleration: ball.rolling_deceleration,
-            slide_to_roll_ratio: ball.slide_to_roll_ratio,
-        },
-        skill,
-    };
-    ScriptedTeam::new(&config).expect("valid numbers")
+    let layout = layout(config).expect("all columns");
+    let numbers = team_config(config, layout, skill).expect("robots of the league");
+    ScriptedTeam::new(&numbers).expect("valid numbers")
 }
