@@ -152,6 +152,13 @@ class Assignment:
         """Find a slice of the learners, which is faster than indices."""
         self.written: Indices = _slice_if_possible(self.learners)
 
+    @property
+    def reads_observations(self) -> bool:
+        """Whether a learner or a policy reads observations; scripts read the view alone."""
+        if len(self.learners):
+            return True
+        return any(group.policy.observes == "observation" for group in self.groups)
+
 
 def assign(
     task: Task, controllers: Controllers | None, worlds: int, *, by_team: bool = False

@@ -2,6 +2,7 @@
 
 import copy
 from typing import Any
+from unittest import mock
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ import pytest
 import rsoccer
 from rsoccer.envs.env_matches import EnvMatches
 from rsoccer.matches import Matches
+from rsoccer.observation_layout import ObservationLayout
 from rsoccer.policies import Policy
 from rsoccer.policies.base import PolicyInput
 from rsoccer.registry import make_task
@@ -110,6 +112,30 @@ def test_policies_change_with_a_new_memory() -> None:
     matches.change_controllers({"yellow": Seeing(0.5)})  # these robots have observed before
     stepped(matches, 1)
     assert matches.play.actions[:, yellow] == pytest.approx(0.5)
+
+
+class Reading(Seeing):
+    """Keeps a copy of the observations that it gets."""
+
+    observes = "observation"
+    seen: Any = None
+
+    def act(self, inputs: PolicyInput, rng: Any, memory: Any) -> Any:  # noqa: ANN401
+        self.seen = np.array(inputs.observations)
+        return super().act(inputs, rng, memory)
+
+
+def test_observations_are_computed_once_a_policy_reads_them() -> None:
+    matches = Matches("VSSSelfPlay-v0", 2, 0, controllers={"blue": "chase", "yellow": Seeing(0.1)})
+    with mock.patch.object(ObservationLayout, "observe", side_effect=AssertionError):
+        matches.reset()  # scripts read the view alone
+        stepped(matches, 3)
+    reading = Reading(0.1)
+    matches.change_controllers({"yellow": reading})
+    wanted = matches.task.layout.observe(matches.play)[:, 3:]
+    stepped(matches, 1)
+    assert wanted.any()
+    np.testing.assert_array_equal(reading.seen, wanted)
 
 
 def test_skills_change_deterministically() -> None:

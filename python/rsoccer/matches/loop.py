@@ -453,9 +453,12 @@ class Matches:
             ValueError: an unknown robot, one that learns, a policy that does not fit the task, or
                 one that observes in the place of one that does not. Nothing has changed.
         """
+        were_read = self.assignment.reads_observations
         changes.change_controllers(self.task, self.assignment, controllers)
         groups = self.assignment.groups
         self._commanding = [group for group in groups if isinstance(group.policy, CommandPolicy)]
+        if self._all_begun and not were_read:
+            self._observe()
 
     def start_from(self, rows: Floats | None) -> None:
         """Set the states in which episodes begin from now on, after automatic resets too.
@@ -673,8 +676,9 @@ class Matches:
             self.play.senses.sense(self.play.frame, active)
 
     def _observe(self) -> None:
-        """Compute the observations of all observers."""
-        self.task.layout.observe(self.play, out=self._observations)
+        """Compute the observations of all observers, if a learner or a policy reads them."""
+        if self.assignment.reads_observations:
+            self.task.layout.observe(self.play, out=self._observations)
 
     def _autoreset(self, outcome: Outcome) -> None:
         """Reset matches as `autoreset` demands, and fill in the outcome's observations."""
@@ -766,9 +770,10 @@ class Matches:
         self.task.start_episode(part)
         if part.senses is not None:
             part.senses.begin(part.frame, worlds)
-        observations = self.task.layout.observe(part)
-        self._observations[worlds] = observations
-        self._stack.begin(self._past, worlds, self._learners.select(observations))
+        if self.assignment.reads_observations:
+            self._observations[worlds] = self.task.layout.observe(part)
+            observations = self._learners.select(self._observations[worlds])
+            self._stack.begin(self._past, worlds, observations)
         self.play.put(worlds, part)
         self._done[worlds] = False
         self._returns[worlds] = 0.0

@@ -85,12 +85,18 @@ class Passes(Rule):
         in_mouth = frame.robots.infrared > 0.5
         if not np.count_nonzero(in_mouth):  # in most steps, as long as there are few worlds
             return None
-        receiver, passer = np.argmax(in_mouth, axis=1), game.touched_by
-        teammates = (passer < frame.n_blue) == (receiver < frame.n_blue)
-        teammates &= (passer != receiver) & (passer != NOBODY)
-        far = _squared(frame.ball.position - game.released_at) >= self.min_length**2
-        arrived: Mask = (in_mouth.sum(axis=1) == 1) & teammates & far
-        return arrived if arrived.any() else None
+        worlds, receiver = np.nonzero(in_mouth)
+        passer = game.touched_by[worlds]
+        passed = (passer < frame.n_blue) == (receiver < frame.n_blue)
+        passed &= (passer != receiver) & (passer != NOBODY)
+        way = frame.ball.position[worlds] - game.released_at[worlds]
+        passed &= _squared(way) >= self.min_length**2
+        if not passed.any():
+            return None
+        arrived = np.zeros(len(in_mouth), np.bool_)
+        arrived[worlds[passed]] = True
+        arrived &= np.count_nonzero(in_mouth, axis=1) == 1
+        return arrived
 
     def _with_robot_or_stopped(self, play: Play) -> Mask:
         """(n,) whether the ball is with the robot that touched it last, or stopped."""

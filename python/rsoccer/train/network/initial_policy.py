@@ -7,6 +7,7 @@ run plays as the policy does.
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -15,19 +16,48 @@ import torch
 from rsoccer.arrays import Array, Floats
 from rsoccer.history import ObservationStack
 from rsoccer.policies import make_policy
+from rsoccer.policies.base import Policy
 from rsoccer.policies.network import Network
+from rsoccer.policies.policy_file import SUFFIX
+from rsoccer.policies.trained import list_trained
 from rsoccer.task import Task
 from rsoccer.train.network.actor_critic import ActorCritic
+from rsoccer.train.network.other_task import fitted
 
 ROWS: Final = 1_000_000
 """Observations that the policy's normalization counts for in the running one. With few of them the
 inputs of the policy would change before it has learned anything."""
 
 
+def load_for_task(name: str, task: Task, stack: ObservationStack) -> Network:
+    """Load the policy that a run of the trainer begins with, perhaps one of another task.
+
+    Args:
+        name: the name `best`, the path of a policy file, or the name of a task with a trained
+            policy, whose weights are taken along by the names of observation blocks.
+        task: the task to train on.
+        stack: what the networks observe of it.
+
+    Raises:
+        ValueError: as `load`, or a policy of the other league.
+    """
+    trained = list_trained()
+    is_other = name in trained and name != task.name
+    if not is_other and not (name.endswith(SUFFIX) and Path(name).exists()):
+        return load(name, task, stack)
+    try:
+        policy = Network.load(trained[name] if is_other else name)
+        if policy.metadata.get("layout") != task.layout.text:
+            policy = fitted(policy, task)
+    except ValueError as error:
+        raise ValueError(f"network.initial_policy: {error}") from error
+    return _checked(policy, name, task, stack, "network.initial_policy")
+
+
 def load(
     name: str, task: Task, stack: ObservationStack, argument: str = "network.initial_policy"
 ) -> Network:
-    """Load the policy that a run begins with.
+    """Load a policy of a task.
 
     Args:
         name: the name `best`, or the path of a policy file.
@@ -46,6 +76,13 @@ def load(
         policy = make_policy(name, task)
     except (FileNotFoundError, ValueError) as error:
         raise ValueError(f"{argument}: {error}") from error
+    return _checked(policy, name, task, stack, argument)
+
+
+def _checked(
+    policy: Policy, name: str, task: Task, stack: ObservationStack, argument: str
+) -> Network:
+    """The policy, if it is a network as the trainer has them."""
     if not isinstance(policy, Network):
         raise ValueError(
             f"{argument}: expected a trained policy, got {name!r}, which has no weights"
@@ -61,6 +98,7 @@ def load(
             f"{argument}: expected a policy with at most the run's history of {stack.history}, got "
             f"one of {policy.history}"
         )
+    policy.check_fits(task, task.layout.size)
     return policy
 
 

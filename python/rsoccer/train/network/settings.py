@@ -31,7 +31,7 @@ class NetworkSettings:
     masked_observations: tuple[str, ...] = ()
     """blocks read as 0 in ablations, as in shot opponents:2,3"""
     initial_policy: str | None = None
-    """policy whose weights the run begins with: best, or a policy file"""
+    """policy whose weights it begins with: best, a policy file, or another task for its best"""
 
     def __post_init__(self) -> None:
         """Convert and check the values."""

@@ -105,7 +105,9 @@ class Trainer:
         self.evaluator = Evaluator(self.model, Workers(args.threads, args.torch_threads))
         self.collector = _collector(args, self)
         if args.network.initial_policy is not None and not args.resume:
-            policy = initial_policy.load(args.network.initial_policy, self.task, self.stack)
+            policy = initial_policy.load_for_task(
+                args.network.initial_policy, self.task, self.stack
+            )
             initial_policy.copy_weights(policy, self.stack, self.model)
             if sharing is not None:
                 sharing.tie(self.model)
