@@ -41,9 +41,9 @@ def common(source: Task, target: Task) -> list[tuple[Array, Array]]:
         old = np.arange(source.layout.size)[block.columns].reshape(block.shape)
         new = np.arange(target.layout.size)[other.columns].reshape(other.shape)
         if name == "body_positions":
-            mates = [task.layout.blocks["teammates"].shape[0] for task in (source, target)]
-            pairs.append((old[: 1 + min(mates)], new[: 1 + min(mates)]))
-            old, new = old[1 + mates[0] :], new[1 + mates[1] :]
+            teammates = [task.layout.blocks["teammates"].shape[0] for task in (source, target)]
+            pairs.append((old[: 1 + min(teammates)], new[: 1 + min(teammates)]))
+            old, new = old[1 + teammates[0] :], new[1 + teammates[1] :]
         rows = min(len(old), len(new))
         if rows == 0:
             continue
