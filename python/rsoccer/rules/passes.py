@@ -63,34 +63,42 @@ class Passes(Rule):
     def judge(self, play: Play) -> Restart | None:
         """Count the passes that arrived, and follow the ball."""
         game, frame = play.game, play.frame
-        arrived = self._arrived(play)
         begins = self._with_robot_or_stopped(play)
-        if arrived is not None:
+        caught = self._caught(play)
+        if caught is not None:
             # The beam breaks some millimeters before the ball touches: a pass has arrived, and
             # another one begins, while the passer is still the last that touched it.
-            begins |= arrived
-            worlds = np.flatnonzero(arrived)
-            receiver = np.argmax(frame.robots.infrared[worlds], axis=1)
-            team = team_of(frame, receiver)
-            game.passes[worlds, team] += 1
-            position = frame.ball.position[worlds]
-            play.events.add(worlds, EventKind.PASS, team, receiver, position)
+            begins |= self._count(play, *caught)
         game.released_at[begins] = frame.ball.position[begins]
         game.touched_by[:] = frame.ball.last_touch
         return None
 
-    def _arrived(self, play: Play) -> Mask | None:
-        """(n,) whether a pass arrived; None where no ball is in a beam."""
+    def _caught(self, play: Play) -> tuple[Mask, Array, Mask] | None:
+        """Worlds in which a robot caught a ball from another one; None where none is in a beam.
+
+        With (n,) the robot that has it, and (n,) whether the two are teammates.
+        """
         frame, game = play.frame, play.game
         in_mouth = frame.robots.infrared > 0.5
         if not np.count_nonzero(in_mouth):  # in most steps, as long as there are few worlds
             return None
         receiver, passer = np.argmax(in_mouth, axis=1), game.touched_by
-        teammates = (passer < frame.n_blue) == (receiver < frame.n_blue)
-        teammates &= (passer != receiver) & (passer != NOBODY)
+        teammates: Mask = (passer < frame.n_blue) == (receiver < frame.n_blue)
         far = _squared(frame.ball.position - game.released_at) >= self.min_length**2
-        arrived: Mask = (in_mouth.sum(axis=1) == 1) & teammates & far
-        return arrived if arrived.any() else None
+        caught: Mask = (in_mouth.sum(axis=1) == 1) & far
+        caught &= (passer != receiver) & (passer != NOBODY)
+        return caught, receiver, teammates
+
+    def _count(self, play: Play, caught: Mask, receiver: Array, teammates: Mask) -> Mask:
+        """Count what was caught; (n,) whether the next pass begins there."""
+        arrived: Mask = caught & teammates
+        worlds = np.flatnonzero(arrived)
+        if len(worlds):
+            by = receiver[worlds]
+            team = team_of(play.frame, by)
+            play.game.passes[worlds, team] += 1
+            play.events.add(worlds, EventKind.PASS, team, by, play.frame.ball.position[worlds])
+        return arrived
 
     def _with_robot_or_stopped(self, play: Play) -> Mask:
         """(n,) whether the ball is with the robot that touched it last, or stopped."""
