@@ -20,18 +20,25 @@ from rsoccer.tasks.ssl_keepaway import SslKeepaway
 from rsoccer.vectors import FAR, XY, norm, reciprocal
 from rsoccer.view import View
 
-ARRIVAL_SPEED: Final = np.float32(1.8)  # m/s of a pass on arrival: the dribbler stops it
+ARRIVAL_SPEED: Final = np.float32(3.2)  # m/s of a pass on arrival: receivers give way to it
 LEAD_SECONDS: Final = np.float32(0.25)  # s that a running teammate is led by
 MAX_ANGULAR_VELOCITY: Final = 6.0  # rad/s, with the ball on the dribbler
-MAX_AIM_SINE: Final = np.float32(0.02)  # sine of the heading error for a kick
+MAX_AIM_ERROR: Final = np.float32(0.15)  # m beside the teammate for a kick
 MAX_KICK_ANGULAR_VELOCITY: Final = np.float32(0.5)  # rad/s of the robot for a kick
+RECEIVING_DISTANCE: Final = np.float32(0.6)  # m to a coming ball at which a receiver gives way
+RECEIVING_SHARE: Final = np.float32(0.3)  # of the ball's velocity with which it does
 MIN_PASS: Final = np.float32(0.9)  # m; shorter passes are avoided
-PREFERRED_PASS: Final = np.float32(2.0)  # m; waiting teammates keep about this distance
+PREFERRED_PASS: Final = np.float32(2.5)  # m; waiting teammates keep about this distance
+FACING_VALUE: Final = np.float32(0.3)  # m of openness, for a pass straight ahead
+ESCAPE_DISTANCE: Final = np.float32(1.0)  # m to an opponent from which it is driven away from
+ESCAPE_SPEED: Final = np.float32(0.8)  # m/s, with the ball on the dribbler
+MIN_OPENNESS: Final = np.float32(0.0)  # m of openness for a kick
 OPEN_ENOUGH: Final = np.float32(0.5)  # m of openness beyond which more is no better
+AIMED_COSINE: Final = np.float32(0.94)  # of a passer's heading error from which a robot waits
 LINE_MARGIN: Final = 0.35  # m between the robot's center and the border
 MAX_SPEED: Final = 2.0  # m/s
 GRID: Final = 7  # waiting positions along each side of the area
-MATE_SPACING: Final = np.float32(1.5)  # m to other teammates
+MATE_SPACING: Final = np.float32(2.0)  # m to other teammates
 
 
 class Keep(Policy):
@@ -89,20 +96,41 @@ class Keep(Policy):
         gap = openness(start, end, opponent_positions(view))
         length = norm(end[0] - start[0], end[1] - start[1])
         value = np.minimum(gap, OPEN_ENOUGH) - np.maximum(MIN_PASS - length, np.float32(0.0))
+        # The cost of turning also keeps the robot from wavering between two teammates.
+        heading = ego.heading[:, :, None]
+        ahead = (end[0] - start[0]) * heading[..., 0] + (end[1] - start[1]) * heading[..., 1]
+        value = value + FACING_VALUE * ahead * reciprocal(length)
         value = np.where(mate_x < FAR, value, -FAR)
         best = np.argmax(value, axis=-1)[..., None]
         x, y = (np.take_along_axis(part, best, -1)[..., 0] for part in end)
         distance = np.take_along_axis(length, best, -1)[..., 0]
         to_x, to_y = x - ball[..., 0], y - ball[..., 1]
         cos, sin = motion.heading_error(ego, to_x, to_y)
-        ready = (cos > 0.0) & (np.abs(sin) < MAX_AIM_SINE) & (ego.infrared > 0.5)
+        ready = (cos > 0.0) & (np.abs(sin) * distance < MAX_AIM_ERROR) & (ego.infrared > 0.5)
         ready &= np.abs(ego.angular_velocity) < MAX_KICK_ANGULAR_VELOCITY
+        ready &= np.take_along_axis(gap, best, -1)[..., 0] > MIN_OPENNESS
         way = np.maximum(distance - self._control.mouth_distance, np.float32(0.0))
         kick = np.where(ready, self._pass_speed.kick(way, ARRIVAL_SPEED), np.float32(0.0))
         angular_velocity = motion.angular_velocity_to(ego, to_x, to_y, MAX_ANGULAR_VELOCITY)
-        zero = np.zeros_like(to_x)
-        velocity = self._control.limit_acceleration(ego, zero, zero, angular_velocity)
+        v_x, v_y = self._escape(view)
+        velocity = self._control.limit_acceleration(ego, v_x, v_y, angular_velocity)
         return self._control.actions(ego, *velocity, kick)
+
+    def _escape(self, view: View) -> XY:
+        """Velocity (m/s) with the ball, away from the nearest opponent if it is near."""
+        position = view.ego.position
+        x, y = (
+            position[..., i, None] - part for i, part in enumerate(opponent_positions(view))
+        )
+        distance = norm(x, y)
+        nearest = np.argmin(distance, axis=-1)[..., None]
+        x, y, distance = (
+            np.take_along_axis(part, nearest, -1)[..., 0] for part in (x, y, distance)
+        )
+        scale = reciprocal(distance)
+        target = self._region.clamp(position[..., 0] + x * scale, position[..., 1] + y * scale)
+        speed = np.where(distance < ESCAPE_DISTANCE, ESCAPE_SPEED, np.float32(0.0))
+        return motion.velocity_to(position, *target, speed)
 
     def _fetch(self, view: View) -> Floats:
         """Go to a free ball: onto the line of a fast one, and into a slow one."""
@@ -119,6 +147,10 @@ class Keep(Policy):
             self._region,
             MAX_SPEED,
         )
+        # A receiver that gives way to the ball stops faster passes.
+        near = coming & (norm(to_x, to_y) < RECEIVING_DISTANCE)
+        back = np.where(near, RECEIVING_SHARE, np.float32(0.0))
+        line_x, line_y = line_x + back * ball.velocity[..., 0], line_y + back * ball.velocity[..., 1]
         v_x, v_y = np.where(coming, line_x, v_x), np.where(coming, line_y, v_y)
         angular_velocity = motion.angular_velocity_to(ego, to_x, to_y, MAX_ANGULAR_VELOCITY)
         return self._control.actions(ego, v_x, v_y, angular_velocity)
@@ -144,6 +176,8 @@ class Keep(Policy):
         v_x, v_y = motion.limit_speed_near_robots(
             ego.position, (v_x, v_y), other_robots(view), self._control.robot_diameter, MAX_SPEED
         )
+        stays = _is_aimed_at(view)  # a standing teammate is easier to aim at
+        v_x, v_y = np.where(stays, np.float32(0.0), v_x), np.where(stays, np.float32(0.0), v_y)
         angular_velocity = motion.angular_velocity_to(ego, to_x, to_y, MAX_ANGULAR_VELOCITY)
         return self._control.actions(ego, v_x, v_y, angular_velocity)
 
@@ -168,6 +202,16 @@ def _region_of(task: Task) -> Region:
         return Region.of_field(task.config.field, LINE_MARGIN)
     x, y = (max(float(half) - LINE_MARGIN, 0.1) for half in task.half_area)
     return Region((-x, -y), (x, y))
+
+
+def _is_aimed_at(view: View) -> Mask:
+    """Whether a teammate with the ball faces each robot, (n, robots)."""
+    ego, mates = view.ego.position, view.teammates
+    x, y = (ego[..., i, None] - mates.position[..., i] for i in (0, 1))
+    ahead = x * mates.heading[..., 0] + y * mates.heading[..., 1]
+    faces = ahead > AIMED_COSINE * norm(x, y)
+    aimed: Mask = np.any(faces & (mates.infrared > 0.5), axis=-1)
+    return aimed
 
 
 def _teammates(view: View) -> XY:

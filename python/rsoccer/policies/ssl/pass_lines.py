@@ -11,7 +11,7 @@ from rsoccer.policies.ssl.path_planning import segment_distance
 from rsoccer.vectors import FAR, XY, norm
 from rsoccer.view import View
 
-REACH_PER_METER: Final = np.float32(0.2)
+REACH_PER_METER: Final = np.float32(0.4)
 """Distance that an opponent covers while a pass goes a meter, m."""
 
 
