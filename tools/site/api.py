@@ -68,6 +68,7 @@ GROUPS: Final = (
             "rsoccer.rules.free_ball",
             "rsoccer.rules.free_places",
             "rsoccer.rules.passes",
+            "rsoccer.rules.possession",
             "rsoccer.rules.referee",
             "rsoccer.rules.referee_config",
             "rsoccer.referee",
