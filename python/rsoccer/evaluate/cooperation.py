@@ -101,7 +101,7 @@ def cooperation(
     other = None if opponent is None else make_policy(opponent, task)
     own = _acting("policy", policy, task)
     others = [_acting("replacements", each, task) for each in replacements]
-    mates = [_acting("partners", each, task) for each in partners]
+    teammates = [_acting("partners", each, task) for each in partners]
     if len({name_of(each) for each in (policy, *partners)}) <= len(partners):
         raise ValueError(f"partners: expected other policies, each once, got {_names(partners)}")
     team = _Team(task, other, per_side, seed, worlds, threads, simulator, sensing, randomization)
@@ -113,9 +113,9 @@ def cooperation(
     for name, replacement in zip(_names(replacements), others, strict=True):
         line_ups.append(_line_up(name, team.play(own, replacement), whole, rng))
     cross_play = None
-    if mates:
+    if teammates:
         names = [name_of(policy), *_names(partners)]
-        cross_play = _cross_play(team, names, [own, *mates], whole, rng)
+        cross_play = _cross_play(team, names, [own, *teammates], whole, rng)
     return Cooperation(
         policy=name_of(policy),
         opponent=(" ".join(opponents_of(task)) or "-") if opponent is None else name_of(opponent),
@@ -246,9 +246,7 @@ def _line_up(
     if whole is not None:
         pairs = zip(played.scores, whole.scores, strict=True)
         lost = bootstrap_interval([one - other for one, other in pairs], rng)
-    measures = {
-        name: bootstrap_interval(values, rng) for name, values in played.measures.items()
-    }
+    measures = {name: bootstrap_interval(values, rng) for name, values in played.measures.items()}
     return LineUp(replacement, bootstrap_interval(played.scores, rng), lost, measures)
 
 

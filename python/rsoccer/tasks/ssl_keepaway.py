@@ -44,7 +44,7 @@ _SIGNS: Final = np.array([1.0, -1.0], np.float32)
 
 @dataclass(frozen=True)
 class SslKeepaway(Ssl):
-    """SSL task in which blue robots, the keepers, pass to keep the ball from yellow ones, the takers.
+    """SSL task in which blue robots, the keepers, pass to keep the ball from yellow takers.
 
     Goal of the task: the keepers keep the ball in the area for as long as possible; the takers end
     that. The area is a rectangle around the center of the field, which robots may leave. There are

@@ -38,8 +38,9 @@ def test_keep_passes_without_opponents_too() -> None:
 
 
 def test_takers_end_passes() -> None:
-    alone, opposed = SslPassEnduranceMulti(max_steps=300), SslPassEnduranceMulti(
-        max_steps=300, n_opponents=2
+    alone, opposed = (
+        SslPassEnduranceMulti(max_steps=300),
+        SslPassEnduranceMulti(max_steps=300, n_opponents=2),
     )
     free = mean_metric(alone, "passes", blue="passer")
     assert mean_metric(opposed, "passes", blue="passer") < 0.3 * free

@@ -38,7 +38,7 @@ AIMED_COSINE: Final = np.float32(0.94)  # of a passer's heading error from which
 LINE_MARGIN: Final = 0.35  # m between the robot's center and the border
 MAX_SPEED: Final = 2.0  # m/s
 GRID: Final = 7  # waiting positions along each side of the area
-MATE_SPACING: Final = np.float32(2.0)  # m to other teammates
+TEAMMATE_SPACING: Final = np.float32(2.0)  # m to other teammates
 
 
 class Keep(Policy):
@@ -87,11 +87,11 @@ class Keep(Policy):
 
     def _pass(self, view: View) -> Floats:
         """Turn to the most open teammate, and kick."""
-        ego, ball, mates = view.ego, view.ball.position, view.teammates
-        mate_x, mate_y = _teammates(view)
-        lead_x, lead_y = (mates.velocity[..., i] * LEAD_SECONDS for i in (0, 1))
-        end = self._region.clamp(mate_x + lead_x, mate_y + lead_y)
-        end = np.where(mate_x < FAR, end[0], FAR), np.where(mate_x < FAR, end[1], FAR)
+        ego, ball, teammates = view.ego, view.ball.position, view.teammates
+        teammate_x, teammate_y = _teammates(view)
+        lead_x, lead_y = (teammates.velocity[..., i] * LEAD_SECONDS for i in (0, 1))
+        end = self._region.clamp(teammate_x + lead_x, teammate_y + lead_y)
+        end = np.where(teammate_x < FAR, end[0], FAR), np.where(teammate_x < FAR, end[1], FAR)
         start = ball[..., 0, None], ball[..., 1, None]
         gap = openness(start, end, opponent_positions(view))
         length = norm(end[0] - start[0], end[1] - start[1])
@@ -100,7 +100,7 @@ class Keep(Policy):
         heading = ego.heading[:, :, None]
         ahead = (end[0] - start[0]) * heading[..., 0] + (end[1] - start[1]) * heading[..., 1]
         value = value + FACING_VALUE * ahead * reciprocal(length)
-        value = np.where(mate_x < FAR, value, -FAR)
+        value = np.where(teammate_x < FAR, value, -FAR)
         best = np.argmax(value, axis=-1)[..., None]
         x, y = (np.take_along_axis(part, best, -1)[..., 0] for part in end)
         distance = np.take_along_axis(length, best, -1)[..., 0]
@@ -119,9 +119,7 @@ class Keep(Policy):
     def _escape(self, view: View) -> XY:
         """Velocity (m/s) with the ball, away from the nearest opponent if it is near."""
         position = view.ego.position
-        x, y = (
-            position[..., i, None] - part for i, part in enumerate(opponent_positions(view))
-        )
+        x, y = (position[..., i, None] - part for i, part in enumerate(opponent_positions(view)))
         distance = norm(x, y)
         nearest = np.argmin(distance, axis=-1)[..., None]
         x, y, distance = (
@@ -150,7 +148,10 @@ class Keep(Policy):
         # A receiver that gives way to the ball stops faster passes.
         near = coming & (norm(to_x, to_y) < RECEIVING_DISTANCE)
         back = np.where(near, RECEIVING_SHARE, np.float32(0.0))
-        line_x, line_y = line_x + back * ball.velocity[..., 0], line_y + back * ball.velocity[..., 1]
+        line_x, line_y = (
+            line_x + back * ball.velocity[..., 0],
+            line_y + back * ball.velocity[..., 1],
+        )
         v_x, v_y = np.where(coming, line_x, v_x), np.where(coming, line_y, v_y)
         angular_velocity = motion.angular_velocity_to(ego, to_x, to_y, MAX_ANGULAR_VELOCITY)
         return self._control.actions(ego, v_x, v_y, angular_velocity)
@@ -165,9 +166,11 @@ class Keep(Policy):
         value = np.minimum(openness(start, end, opponent_positions(view)), OPEN_ENOUGH)
         length = norm(end[0] - start[0], end[1] - start[1])
         value = value - np.float32(0.3) * np.abs(length - PREFERRED_PASS)
-        mate_x, mate_y = _teammates(view)
-        gap = norm(end[0][..., None] - mate_x[:, :, None], end[1][..., None] - mate_y[:, :, None])
-        crowding = np.maximum(MATE_SPACING - gap.min(axis=-1), np.float32(0.0))
+        teammate_x, teammate_y = _teammates(view)
+        gap = norm(
+            end[0][..., None] - teammate_x[:, :, None], end[1][..., None] - teammate_y[:, :, None]
+        )
+        crowding = np.maximum(TEAMMATE_SPACING - gap.min(axis=-1), np.float32(0.0))
         way = norm(end[0] - ego.position[..., 0, None], end[1] - ego.position[..., 1, None])
         best = np.argmax(value - crowding - np.float32(0.15) * way, axis=-1)
         v_x, v_y = motion.velocity_to(
@@ -206,11 +209,11 @@ def _region_of(task: Task) -> Region:
 
 def _is_aimed_at(view: View) -> Mask:
     """Whether a teammate with the ball faces each robot, (n, robots)."""
-    ego, mates = view.ego.position, view.teammates
-    x, y = (ego[..., i, None] - mates.position[..., i] for i in (0, 1))
-    ahead = x * mates.heading[..., 0] + y * mates.heading[..., 1]
+    ego, teammates = view.ego.position, view.teammates
+    x, y = (ego[..., i, None] - teammates.position[..., i] for i in (0, 1))
+    ahead = x * teammates.heading[..., 0] + y * teammates.heading[..., 1]
     faces = ahead > AIMED_COSINE * norm(x, y)
-    aimed: Mask = np.any(faces & (mates.infrared > 0.5), axis=-1)
+    aimed: Mask = np.any(faces & (teammates.infrared > 0.5), axis=-1)
     return aimed
 
 

@@ -4,7 +4,7 @@ from typing import Final
 
 import numpy as np
 
-from rsoccer.arrays import Floats, Mask
+from rsoccer.arrays import Floats
 from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
 from rsoccer.policies.geometry import team_from_ball
 from rsoccer.policies.ssl import motion
@@ -16,7 +16,7 @@ from rsoccer.policies.ssl.region import Region
 from rsoccer.policies.ssl.robot_control import RobotControl, require_ssl
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
-from rsoccer.vectors import norm, reciprocal
+from rsoccer.vectors import norm
 from rsoccer.view import View
 
 MAX_SPEED: Final = 2.0  # m/s, at skill 1
