@@ -10,17 +10,12 @@ from rsoccer import LEARN, Matches, policies
 from rsoccer.game import YELLOW
 from rsoccer.rng import WorldRng
 from rsoccer.tasks import SslKeepaway
-from rsoccer.testing import check_task
 from tests.tasks.ssl_scenes import DRIBBLE, KICK, STAND, play, run, scene
 
 TASK = SslKeepaway(learners="both")
 MOUTH = float(TASK.mouth_offset)
 AWAY = {"blue_1": (1.5, 1.5), "blue_2": (1.5, -1.5), "yellow_0": (-1.5, 1.5), "yellow_1": (-2, -2)}
 """Places of all robots but blue_0, away from the center."""
-
-
-def test_the_task_passes_the_checks_of_tasks() -> None:
-    check_task(SslKeepaway())
 
 
 @pytest.mark.parametrize("options", [{}, {"n_keepers": 4, "n_takers": 3}, {"area_width": 2.0}])

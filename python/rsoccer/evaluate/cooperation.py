@@ -3,26 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from rsoccer import checks
-from rsoccer.arrays import Doubles
-from rsoccer.controllers import Controller
 from rsoccer.evaluate.cooperation_report import Cooperation, CrossPlay, LineUp
-from rsoccer.evaluate.episodes import EpisodeRunner, Episodes
 from rsoccer.evaluate.results import Interval, bootstrap_interval
-from rsoccer.evaluate.schedule import first_seed, matches_per_side, processors
-from rsoccer.evaluate.team_play import MEASURES, TeamPlayRecorder
-from rsoccer.frame import team_of
-from rsoccer.lineup import learning_team, lineup, opponents_of, script_of, task_for
+from rsoccer.evaluate.schedule import matches_per_side, processors
+from rsoccer.evaluate.team_matches import Played, Team
+from rsoccer.lineup import opponents_of, script_of, task_for
 from rsoccer.policies import PolicyLike, check_policy_like, make_policy, name_of
 from rsoccer.policies.base import Policy, require_actions
 from rsoccer.randomization import Ranges
 from rsoccer.registry import as_task
 from rsoccer.sources import SensingSource, SimulatorSource
-from rsoccer.task import LEARN, Learn, Task
+from rsoccer.task import Task
 from rsoccer.view import SIDES
 
 WHOLE_TEAM = "-"
@@ -104,7 +99,7 @@ def cooperation(
     teammates = [_acting("partners", each, task) for each in partners]
     if len({name_of(each) for each in (policy, *partners)}) <= len(partners):
         raise ValueError(f"partners: expected other policies, each once, got {_names(partners)}")
-    team = _Team(task, other, per_side, seed, worlds, threads, simulator, sensing, randomization)
+    team = Team(task, other, per_side, seed, worlds, threads, simulator, sensing, randomization)
     if partners and len(team.learners(0)) < 2:
         raise ValueError(f"partners: expected a task with two learners a team, got {task.name}")
     rng = np.random.default_rng(np.random.SeedSequence((seed, len(SIDES))))
@@ -128,118 +123,8 @@ def cooperation(
     )
 
 
-@dataclass(frozen=True)
-class _Played:
-    """Results of a line-up from each side, in the order of the starts."""
-
-    metric: str
-    scores: list[Doubles]
-    """(n,) of the team, per side"""
-    measures: dict[str, list[Doubles]]
-    """(n,) per side, by measure"""
-
-
-@dataclass(frozen=True)
-class _Team:
-    """Matches of a team with some robots replaced."""
-
-    task: Task
-    opponent: Policy | None
-    per_side: int
-    seed: int
-    worlds: int
-    threads: int
-    simulator: SimulatorSource | None
-    sensing: SensingSource | None
-    randomization: Ranges | None
-
-    @property
-    def sides(self) -> tuple[str, ...]:
-        """Sides that the team plays."""
-        return SIDES if self.task.two_sided else (team_of(learning_team(self.task)[0]),)
-
-    def controllers(self, index: int) -> dict[str, Controller]:
-        """Controllers by robot, with `LEARN` for the team's policy; side by its index."""
-        side = self.sides[index] if self.task.two_sided else None
-        return lineup(self.task, LEARN, self.opponent, side)
-
-    def learners(self, index: int) -> list[str]:
-        """Robots that the policy drives."""
-        given = self.controllers(index).items()
-        return [name for name, each in given if isinstance(each, Learn)]
-
-    def play(self, policy: Policy, replacement: Policy | None) -> _Played:
-        """Play all matches, with each robot replaced in an equal share of them."""
-        sets = [self._replaceable(index, replacement) for index in range(len(self.sides))]
-        return self._play(policy, replacement, sets)
-
-    def play_halves(self, first: Policy, second: Policy) -> _Played:
-        """Play all matches with half of the robots of each policy, either half in every other."""
-        sets = []
-        for index in range(len(self.sides)):
-            robots = self.learners(index)
-            middle = len(robots) // 2
-            sets.append([robots[middle:], robots[:middle]])
-        return self._play(first, second, sets)
-
-    def _replaceable(self, index: int, replacement: Policy | None) -> list[list[str]]:
-        """Sets of robots that are replaced, each in an equal share of the matches."""
-        robots = self.learners(index)
-        if len(robots) < 2:
-            side = self.sides[index]
-            robots = [name for name in self.task.robots if team_of(name) == side]
-            robots = [name for name in robots if name not in self.learners(index)]
-        if not robots:
-            raise ValueError(
-                f"task: expected one with at least two robots a team, got {self.task.name}"
-            )
-        return [[]] if replacement is None else [[name] for name in robots]
-
-    def _play(
-        self, policy: Policy, replacement: Policy | None, sets: list[list[list[str]]]
-    ) -> _Played:
-        """Play all matches from each side, with sets of robots replaced in turn."""
-        scores: list[Doubles] = []
-        measures: dict[str, list[Doubles]] = {name: [] for name in MEASURES}
-        metric = ""
-        for index, side in enumerate(self.sides):
-            recorder = TeamPlayRecorder(self.task, side)
-            parts: list[Episodes] = []
-            start = 0
-            shares = np.array_split(np.arange(self.per_side), len(sets[index]))
-            for robots, share in zip(sets[index], shares, strict=True):
-                if len(share):
-                    controllers = self.controllers(index)
-                    if replacement is not None:
-                        controllers |= dict.fromkeys(robots, replacement)
-                    runner = self._runner(controllers, policy, recorder)
-                    parts.append(runner.run(len(share), first_seed(self.seed, index) + start))
-                    start += len(share)
-            metric = parts[0].metric
-            sign = 1.0 if side == self.sides[0] else -1.0
-            scores.append(np.concatenate([part.scores for part in parts]) * sign + 0.0)
-            for name, values in recorder.means().items():
-                measures[name].append(values)
-        return _Played(metric, scores, measures)
-
-    def _runner(
-        self, controllers: dict[str, Controller], policy: Policy, recorder: TeamPlayRecorder
-    ) -> EpisodeRunner:
-        return EpisodeRunner(
-            self.task,
-            controllers,
-            policy,
-            self.worlds,
-            self.threads,
-            simulator=self.simulator,
-            sensing=self.sensing,
-            randomization=self.randomization,
-            recorder=recorder,
-        )
-
-
 def _line_up(
-    replacement: str, played: _Played, whole: _Played | None, rng: np.random.Generator
+    replacement: str, played: Played, whole: Played | None, rng: np.random.Generator
 ) -> LineUp:
     """Summary of a line-up, and its difference to the whole team from the same starts."""
     lost = None
@@ -251,14 +136,14 @@ def _line_up(
 
 
 def _cross_play(
-    team: _Team,
+    team: Team,
     names: list[str],
     policies: list[Policy],
-    whole: _Played,
+    whole: Played,
     rng: np.random.Generator,
 ) -> CrossPlay:
     """Scores of teams of each two policies."""
-    played: dict[tuple[int, int], _Played] = {(0, 0): whole}
+    played: dict[tuple[int, int], Played] = {(0, 0): whole}
     for i, first in enumerate(policies):
         for j in range(i, len(policies)):
             if (i, j) not in played:
