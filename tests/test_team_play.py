@@ -109,10 +109,10 @@ def test_each_match_is_measured_alone_and_to_its_end() -> None:
         assert matches.done.all()
         return recorder.means()
 
-    batch = played(6, 3)
+    batch, singles = played(3, 3), [played(1, 3 + i) for i in range(3)]
     assert list(batch) == list(MEASURES)
     for name in MEASURES:
-        alone = np.concatenate([played(1, 3 + i)[name] for i in range(6)])
+        alone = np.concatenate([single[name] for single in singles])
         assert (batch[name] == alone).all(), name
-    assert len(np.unique(batch["spread"])) == 6
+    assert len(np.unique(batch["spread"])) == 3
     assert 0.0 < batch["possession"].mean() <= 1.0

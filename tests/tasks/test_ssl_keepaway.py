@@ -81,7 +81,8 @@ def test_a_pass_begins_the_time_anew_and_counts() -> None:
     actions = np.tile(np.array(DRIBBLE, np.float32), (1, 5, 1))
     held, rewarded = [], np.zeros(5)
     for step in range(60):
-        actions[0, 0] = (*KICK[:3], 0.4, -1.0) if step in (20, 21) else STAND
+        waits = DRIBBLE if step < 20 else STAND
+        actions[0, 0] = (*KICK[:3], 0.4, -1.0) if step in (20, 21) else waits
         outcome = matches.step(actions)
         rewarded += outcome.terms["passes"][0]
         held.append(int(matches.play.memory["held"][0]))
