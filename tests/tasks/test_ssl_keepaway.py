@@ -143,8 +143,8 @@ def test_a_limit_reached_is_full_success() -> None:
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"n_keepers": 1}, "n_keepers: expected .* 2 to 11, got 1"),
-        ({"n_takers": 0}, "n_takers: expected .* 1 to 11, got 0"),
+        ({"n_keepers": 1}, "n_keepers: expected at least 2, got 1"),
+        ({"n_takers": 0}, "n_takers: expected at least 1, got 0"),
         ({"area_length": 9.5}, "area_length: expected .* got 9.5"),
         ({"area_width": 0.5}, "area_width: expected .* got 0.5"),
         ({"field": "ssl_challenge"}, "area_width: expected .* got 5.0"),

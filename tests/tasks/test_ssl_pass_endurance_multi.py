@@ -153,5 +153,5 @@ def test_opponents_start_away_from_the_passers() -> None:
     offset = frame.yellow.position[:, :, None] - frame.blue.position[:, None]
     assert np.linalg.norm(offset, axis=-1).min() > 1.0
     assert task.agents == ("blue_0", "blue_1")
-    with pytest.raises(ValueError, match=r"n_opponents: expected .* 0 to 6, got 7"):
+    with pytest.raises(ValueError, match="n_opponents: expected at most 6, got 7"):
         SslPassEnduranceMulti(n_opponents=7)
