@@ -6,6 +6,7 @@ SOLVERS: Final[dict[str, str]] = {
     "SSLContestedPossession-v0": "strike",
     "SSLDribbling-v0": "weave",
     "SSLGoToBall-v0": "fetch",
+    "SSLKeepaway-v0": "keep",
     "SSLMatch-v0": "scripted",
     "SSLPassEndurance-v1": "passer",
     "SSLPassEnduranceMulti-v1": "passer",

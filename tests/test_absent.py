@@ -24,6 +24,8 @@ SCRIPTS = [
     ("SSLSelfPlay-v0", "strike"),
     ("SSLSelfPlay-v0", "fetch"),
     ("SSLPassEnduranceMulti-v1", "passer"),
+    ("SSLKeepaway-v0", "keep"),
+    ("SSLKeepaway-v0", "take"),
     ("SSLDribbling-v0", "weave"),
     ("SSLContestedPossession-v0", "strike"),
 ]

@@ -17,6 +17,7 @@ from rsoccer.tasks import VssSelfPlay
         ("VSSMulti-v0", ("blue_0", "blue_1", "blue_2")),
         ("VSSSelfPlay-v0", ("blue_0", "blue_1", "blue_2")),
         ("SSLPassEnduranceMulti-v1", ("blue_0", "blue_1")),
+        ("SSLKeepaway-v0", ("blue_0", "blue_1", "blue_2")),
     ],
 )
 def test_one_team_learns_in_training(task: str, expected: tuple[str, ...]) -> None:

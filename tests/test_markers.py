@@ -12,6 +12,7 @@ MARKERS = {
     "SSLStaticDefenders-v0": {Area},
     "SSLContestedPossession-v0": {Area},
     "SSLDribbling-v0": {Gate},
+    "SSLKeepaway-v0": {Area},
     "SSLPassEndurance-v1": {Target, Segment},
     "SSLPassEnduranceMulti-v1": {Target, Segment},
 }

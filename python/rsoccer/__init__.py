@@ -27,7 +27,7 @@ from rsoccer.envs.parallel import parallel_env
 from rsoccer.envs.robots_vector import robots_vector_env
 from rsoccer.envs.single import single_env
 from rsoccer.envs.vector import vector_env
-from rsoccer.evaluate import evaluate, tournament
+from rsoccer.evaluate import cooperation, evaluate, tournament
 from rsoccer.frame import Frame
 from rsoccer.matches import Matches, Outcome
 from rsoccer.policies.base import CommandPolicy, Policy
@@ -40,6 +40,7 @@ from rsoccer.tasks import (
     SslContestedPossession,
     SslDribbling,
     SslGoToBall,
+    SslKeepaway,
     SslPassEndurance,
     SslPassEnduranceMulti,
     SslSelfPlay,
@@ -72,6 +73,7 @@ __all__ = [
     "SslContestedPossession",
     "SslDribbling",
     "SslGoToBall",
+    "SslKeepaway",
     "SslPassEndurance",
     "SslPassEnduranceMulti",
     "SslSelfPlay",
@@ -84,6 +86,7 @@ __all__ = [
     "WorldRng",
     "__version__",
     "build_info",
+    "cooperation",
     "env",
     "evaluate",
     "list_tasks",

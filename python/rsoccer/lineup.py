@@ -8,11 +8,35 @@ from rsoccer.controllers import Controller
 from rsoccer.frame import team_of
 from rsoccer.registry import make_task
 from rsoccer.task import LEARN, Learn, Task
+from rsoccer.tasks.match import Match
+from rsoccer.tasks.ssl_keepaway import SslKeepaway
+from rsoccer.tasks.ssl_pass import SslPass
 
 DEFAULT_TASK: Final = "VSSSelfPlay-v0"
 """Task for policies that were not trained on one."""
 DEFAULT_OPPONENT: Final = "ou"
 """Policy of the other team where both teams learn and no opponent is given."""
+SCRIPTS: Final = {"differential": "scripted", "omni": "strike"}
+"""Scripts that play in the place of learners, by the drive of the robots."""
+MATCH_SCRIPT: Final = "scripted"
+"""Script of whole matches, which obeys the referee."""
+KEEPER_SCRIPT: Final = "keep"
+"""Script of tasks in which a team keeps the ball."""
+TAKER_SCRIPT: Final = "take"
+"""Script of the other team there."""
+
+
+def script_of(task: Task) -> str:
+    """Return the name of the script that plays in the place of a task's learners.
+
+    Args:
+        task: the task that is played.
+    """
+    if isinstance(task, SslKeepaway) and task.learners == "takers":
+        return TAKER_SCRIPT
+    if isinstance(task, SslKeepaway | SslPass):
+        return KEEPER_SCRIPT
+    return MATCH_SCRIPT if isinstance(task, Match) else SCRIPTS[task.config.robots[0].drive]
 
 
 def task_for(*players: Controller) -> Task:

@@ -32,6 +32,7 @@ DRIVEN: list[tuple[str, Controllers | None]] = [
     ("SSLDribbling-v0", {"all": "ou", "blue_0": "weave"}),
     ("SSLGoToBall-v0", {"all": "ou", "blue_0": "fetch"}),
     ("SSLPassEnduranceMulti-v1", {"all": "ou", "blue_0": "passer"}),
+    ("SSLKeepaway-v0", {"all": "ou", "blue": "keep", "yellow": "take"}),
     ("SSLMatch-v0", {"all": "ou", "blue": "scripted"}),
 ]
 """Every policy once, with its random numbers and memory."""

@@ -4,6 +4,7 @@ import pytest
 from rsoccer import Matches
 from rsoccer.frame import Frame
 from rsoccer.game import BLUE, EventKind
+from rsoccer.rng import WorldRng
 from rsoccer.tasks import SslPassEnduranceMulti
 from tests.tasks.ssl_scenes import DRIBBLE, KICK, STAND, play, run, scene
 
@@ -121,3 +122,36 @@ def test_either_robot_starts_with_the_ball() -> None:
     matches = Matches(SslPassEnduranceMulti(), 50, seed=1)
     matches.reset()
     assert (matches.play.memory["holder"] == 0).all()
+
+
+def test_opponents_that_have_the_ball_end_the_episode() -> None:
+    task = SslPassEnduranceMulti(n_opponents=1, opponent="hold")
+    poses = {"blue_0": (-1.5, 0.0), "blue_1": (1.5, 0.0, np.pi), "yellow_0": (0.0, 1.0)}
+    start = scene(task, ball=(float(task.mouth_offset), 1.0), **poses)
+    outcome, matches = run(task, start)
+    assert outcome.terminated[0]
+    assert outcome.terms["failed"][0].tolist() == [-1.0, -1.0]
+    assert 10 <= matches.play.steps[0] <= 12
+
+
+def test_a_pass_that_an_opponent_catches_is_an_interception() -> None:
+    task = SslPassEnduranceMulti(n_opponents=1, opponent="hold")
+    poses = {"blue_0": (-1.5, 0.0), "blue_1": (2.5, 0.0, np.pi), "yellow_0": (0.5, 0.0, np.pi)}
+    start = scene(task, ball=(-1.5 + float(task.mouth_offset), 0.0), **poses)
+    outcome, _ = run(task, start, KICK)
+    assert outcome.terminated[0]
+    assert outcome.metrics["interceptions"][0] == 1.0
+    assert outcome.metrics["passes"][0] == 0.0
+    assert 0.2 < outcome.metrics["possession"][0] < 2.0
+
+
+def test_opponents_start_away_from_the_passers() -> None:
+    task = SslPassEnduranceMulti(n_opponents=3)
+    assert task.sides == ("blue", "yellow")
+    assert SslPassEnduranceMulti().sides == ("blue",), "without opponents as before"
+    frame = task.get_initial_positions_frame(WorldRng.seeded(0, 40))
+    offset = frame.yellow.position[:, :, None] - frame.blue.position[:, None]
+    assert np.linalg.norm(offset, axis=-1).min() > 1.0
+    assert task.agents == ("blue_0", "blue_1")
+    with pytest.raises(ValueError, match="n_opponents: expected at most 6, got 7"):
+        SslPassEnduranceMulti(n_opponents=7)

@@ -95,6 +95,10 @@ BLOCKS: Final[dict[str, tuple[Part, ...] | str]] = {
             "1",
         ),
     ),
+    "possession": (
+        Part(1, "time for which the takers have had the ball", "`taking_seconds`"),
+        Part(1, "time for which the keeper with the ball has had it", "`holding_seconds`"),
+    ),
     "gate": (
         Part(2, "offset of the next gate's middle, forward and left", LENGTH),
         Part(1, "direction of the crossing: +1 or -1", "1"),

@@ -11,6 +11,7 @@ from tyro.conf import subcommand
 
 from rsoccer.commands.benchmark import Benchmark
 from rsoccer.commands.convert import Convert
+from rsoccer.commands.cooperation import Cooperation
 from rsoccer.commands.distill import CommandDistillArgs, Distill
 from rsoccer.commands.drive import Drive
 from rsoccer.commands.evaluate import Evaluate
@@ -51,6 +52,7 @@ def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at
         | Annotated[Distill, subcommand("distill", default=distill_default)]
         | Annotated[Evaluate, subcommand("evaluate")]
         | Annotated[Tournament, subcommand("tournament")]
+        | Annotated[Cooperation, subcommand("cooperation")]
         | Annotated[Export, subcommand("export")]
         | Annotated[Benchmark, subcommand("benchmark")]
         | Annotated[Record, subcommand("record")]

@@ -10,8 +10,7 @@ from tyro.conf import arg
 
 from rsoccer import policies, registry
 from rsoccer.commands.task_options import named_task
-from rsoccer.human.teams import script_of
-from rsoccer.lineup import DEFAULT_TASK, task_for
+from rsoccer.lineup import DEFAULT_TASK, script_of, task_for
 from rsoccer.policies import trained
 from rsoccer.policies.own_code import short_name
 from rsoccer.policies.policy_file import SUFFIX, SUFFIXES

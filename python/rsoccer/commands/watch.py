@@ -25,8 +25,7 @@ from rsoccer.commands.subject import (
 )
 from rsoccer.commands.task_options import TASK_OPTIONS
 from rsoccer.controllers import Controller
-from rsoccer.human.teams import script_of
-from rsoccer.lineup import lineup, opponents_of
+from rsoccer.lineup import lineup, opponents_of, script_of
 from rsoccer.render.video import VIDEO_SUFFIXES
 from rsoccer.replay.recorder import record_replay
 from rsoccer.replay.replay import SUFFIX, Replay

@@ -7,7 +7,8 @@ once. Its score is the metric that the task names as its success. In two-sided t
 can play blue's part, a policy plays half of the matches for each team. Otherwise a policy that has
 learned one side only, or an error in yellow's view, would go unnoticed.
 
-`tournament` plays every policy against every other one, and rates them.
+`tournament` plays every policy against every other one, and rates them. `cooperation` measures how
+much the robots of a team do for each other.
 """
 
 from __future__ import annotations
@@ -16,6 +17,8 @@ import numpy as np
 
 from rsoccer import checks
 from rsoccer.arrays import Doubles
+from rsoccer.evaluate.cooperation import cooperation
+from rsoccer.evaluate.cooperation_report import Cooperation
 from rsoccer.evaluate.episodes import EpisodeRunner, Episodes
 from rsoccer.evaluate.evaluation import Evaluation, table
 from rsoccer.evaluate.rates import goal_rates
@@ -32,7 +35,8 @@ from rsoccer.sources import SensingSource, SimulatorSource
 from rsoccer.task import LEARN, Task
 from rsoccer.view import SIDES
 
-__all__ = ["Evaluation", "Interval", "Results", "evaluate", "table"]
+__all__ = ["Cooperation", "Evaluation", "Interval", "Results"]
+__all__ += ["cooperation", "evaluate", "table"]
 __all__ += ["Standing", "Tournament", "first_seed", "matches_per_side", "tournament"]
 
 

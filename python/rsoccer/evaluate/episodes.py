@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,6 +46,25 @@ class Episodes:
     """(n,) values of all metrics of the task at the end of the episode, by name"""
 
 
+class Recorder(Protocol):
+    """Measures matches while they are played."""
+
+    def begin(self, n: int) -> None:
+        """Begin n new matches.
+
+        Args:
+            n: number of matches that are played at once from now on.
+        """
+
+    def record(self, play: Play, playing: Mask) -> None:
+        """Measure a step.
+
+        Args:
+            play: state of the n matches that the step left.
+            playing: (n,) the matches that it belonged to, not those that wait.
+        """
+
+
 @dataclass(frozen=True)
 class EpisodeRunner:
     """Plays matches in which one policy controls the robots that learn."""
@@ -67,6 +87,8 @@ class EpisodeRunner:
     """senses of the robots, as for `Matches`"""
     randomization: Ranges | None = None
     """numbers that each episode draws, as for `Matches`"""
+    recorder: Recorder | None = None
+    """measures the matches, batch after batch"""
 
     def run(self, count: int, first_seed: int) -> Episodes:
         """Play matches, at most `worlds` at once.
@@ -135,11 +157,15 @@ class EpisodeRunner:
         own_goals = np.zeros((n, 2), np.int64)
         results = _Batch(np.zeros(n), np.zeros(n), np.full(n, np.nan), own_goals, {})
         playing = ~matches.done
+        if self.recorder is not None:
+            self.recorder.begin(n)
         while playing.any():
             if self.before_step is not None:
                 self.before_step(playing)
             outcome = matches.step(learners.act(observations))
             observations = outcome.observations
+            if self.recorder is not None:
+                self.recorder.record(matches.play, playing)
             results.steps[:] += playing
             results.returns[:] += outcome.rewards.mean(axis=1)  # zero where a match waits
             scored = playing & matches.play.events.happened(EventKind.GOAL)

@@ -2,26 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Final
-
 from rsoccer.controllers import Controller
 from rsoccer.frame import team_of
+from rsoccer.lineup import script_of
 from rsoccer.task import Learn, Task
-from rsoccer.tasks.match import Match
-
-SCRIPTS: Final = {"differential": "scripted", "omni": "strike"}
-"""Scripts that play in the place of learners, by the drive of the robots."""
-MATCH_SCRIPT: Final = "scripted"
-"""Script of whole matches, which obeys the referee."""
-
-
-def script_of(task: Task) -> str:
-    """Return the name of the script that plays in the place of a task's learners.
-
-    Args:
-        task: the task that is played.
-    """
-    return MATCH_SCRIPT if isinstance(task, Match) else SCRIPTS[task.config.robots[0].drive]
 
 
 def team_controllers(

@@ -14,6 +14,8 @@
 | `fetch` | SSL | takes the ball into the mouth |
 | `hold` | SSL | stands with the dribbler on |
 | `receive` | SSL | stands with the dribbler on and faces the ball |
+| `keep` | SSL | keeps the ball from the other team by passes |
+| `take` | SSL | takes the ball, and blocks passes; a skill may follow, as in `take:0.5` |
 | `passer` | SSL | passes to its teammate and receives passes |
 | `strike` | SSL | wins the ball, and shoots past the opponents |
 | `weave` | SSL | dribbles through the gates of the dribbling task |

@@ -12,8 +12,10 @@ from rsoccer.policies.base import Policy
 from rsoccer.policies.noise import OrnsteinUhlenbeck, Uniform, Zero
 from rsoccer.policies.ssl.fetch import Fetch
 from rsoccer.policies.ssl.hold import Hold, Receive
+from rsoccer.policies.ssl.keep import Keep
 from rsoccer.policies.ssl.passer import Passer
 from rsoccer.policies.ssl.strike import Strike
+from rsoccer.policies.ssl.take import Take
 from rsoccer.policies.ssl.team import ScriptedSsl
 from rsoccer.policies.ssl.weave import Weave
 from rsoccer.policies.vss.chase import Chase
@@ -47,11 +49,13 @@ _MAKERS: Final[dict[str, Maker]] = {
     "chase": Chase,
     "fetch": Fetch,
     "hold": Hold,
+    "keep": Keep,
     "ou": lambda task: OrnsteinUhlenbeck(),
     "passer": Passer,
     "receive": Receive,
     "scripted": _scripted,
     "strike": Strike,
+    "take": Take,
     "uniform": lambda task: Uniform(),
     "weave": Weave,
     "zero": lambda task: Zero(),

@@ -13,5 +13,6 @@ from rsoccer.rules.base import Restart, Rule
 from rsoccer.rules.crossings import Crossings
 from rsoccer.rules.free_ball import FreeBalls
 from rsoccer.rules.passes import Passes
+from rsoccer.rules.possession import Possession
 
-__all__ = ["BallOut", "Crossings", "FreeBalls", "Passes", "Restart", "Rule"]
+__all__ = ["BallOut", "Crossings", "FreeBalls", "Passes", "Possession", "Restart", "Rule"]

@@ -63,39 +63,40 @@ class Passes(Rule):
     def judge(self, play: Play) -> Restart | None:
         """Count the passes that arrived, and follow the ball."""
         game, frame = play.game, play.frame
-        arrived = self._arrived(play)
         begins = self._with_robot_or_stopped(play)
-        if arrived is not None:
+        worlds, receiver = self._caught(play)
+        if len(worlds):
             # The beam breaks some millimeters before the ball touches: a pass has arrived, and
             # another one begins, while the passer is still the last that touched it.
-            begins |= arrived
-            worlds = np.flatnonzero(arrived)
-            receiver = np.argmax(frame.robots.infrared[worlds], axis=1)
-            team = team_of(frame, receiver)
-            game.passes[worlds, team] += 1
-            position = frame.ball.position[worlds]
-            play.events.add(worlds, EventKind.PASS, team, receiver, position)
+            begins[worlds[self._count(play, worlds, receiver)]] = True
         game.released_at[begins] = frame.ball.position[begins]
         game.touched_by[:] = frame.ball.last_touch
         return None
 
-    def _arrived(self, play: Play) -> Mask | None:
-        """(n,) whether a pass arrived; None where no ball is in a beam."""
+    def _caught(self, play: Play) -> tuple[Array, Array]:
+        """Worlds (k,) in which a robot alone caught a ball from another one, and that robot."""
         frame, game = play.frame, play.game
         in_mouth = frame.robots.infrared > 0.5
-        if not np.count_nonzero(in_mouth):  # in most steps, as long as there are few worlds
-            return None
         worlds, receiver = np.nonzero(in_mouth)
         passer = game.touched_by[worlds]
-        passed = (passer < frame.n_blue) == (receiver < frame.n_blue)
-        passed &= (passer != receiver) & (passer != NOBODY)
+        caught = (passer != receiver) & (passer != NOBODY)
         way = frame.ball.position[worlds] - game.released_at[worlds]
-        passed &= _squared(way) >= self.min_length**2
-        if not passed.any():
-            return None
-        arrived = np.zeros(len(in_mouth), np.bool_)
-        arrived[worlds[passed]] = True
-        arrived &= np.count_nonzero(in_mouth, axis=1) == 1
+        caught &= _squared(way) >= self.min_length**2
+        worlds, receiver = worlds[caught], receiver[caught]
+        if len(worlds):
+            alone = np.count_nonzero(in_mouth[worlds], axis=1) == 1
+            worlds, receiver = worlds[alone], receiver[alone]
+        return worlds, receiver
+
+    def _count(self, play: Play, worlds: Array, receiver: Array) -> Mask:
+        """Count what was caught; (k,) whether the next pass begins there."""
+        n_blue = play.frame.n_blue
+        arrived: Mask = (play.game.touched_by[worlds] < n_blue) == (receiver < n_blue)
+        worlds, receiver = worlds[arrived], receiver[arrived]
+        if len(worlds):
+            team, position = team_of(play.frame, receiver), play.frame.ball.position[worlds]
+            play.game.passes[worlds, team] += 1
+            play.events.add(worlds, EventKind.PASS, team, receiver, position)
         return arrived
 
     def _with_robot_or_stopped(self, play: Play) -> Mask:

@@ -5,6 +5,7 @@ from rsoccer.tasks import legacy_names
 from rsoccer.tasks.ssl_contested_possession import SslContestedPossession
 from rsoccer.tasks.ssl_dribbling import SslDribbling
 from rsoccer.tasks.ssl_go_to_ball import SslGoToBall
+from rsoccer.tasks.ssl_keepaway import SslKeepaway
 from rsoccer.tasks.ssl_match import SslMatch
 from rsoccer.tasks.ssl_pass_endurance import SslPassEndurance
 from rsoccer.tasks.ssl_pass_endurance_multi import SslPassEnduranceMulti
@@ -19,6 +20,7 @@ __all__ = [
     "SslContestedPossession",
     "SslDribbling",
     "SslGoToBall",
+    "SslKeepaway",
     "SslMatch",
     "SslPassEndurance",
     "SslPassEnduranceMulti",
@@ -39,6 +41,7 @@ register("SSLContestedPossession-v0", SslContestedPossession)
 register("SSLDribbling-v0", SslDribbling)
 register("SSLPassEndurance-v1", SslPassEndurance)
 register("SSLPassEnduranceMulti-v1", SslPassEnduranceMulti)
+register("SSLKeepaway-v0", SslKeepaway)
 register("SSLSelfPlay-v0", SslSelfPlay)
 register("VSSMatch-v0", VssMatch)
 register("SSLMatch-v0", SslMatch)

@@ -128,7 +128,7 @@ class Ssl(Soccer):
         if not self.config.field.touch_line_margin > 0.0:
             raise ValueError(f"field: expected one of the SSL, like 'ssl_b', got {self.field!r}")
         if self.field != type(self).field:
-            self._check_starts()
+            self._check_starts("field")
 
     def team_sizes(self) -> tuple[int, int]:
         """Return the numbers of blue and of yellow robots."""
@@ -230,8 +230,8 @@ class Ssl(Soccer):
         """Converter from actions to commands."""
         return Steering(self.action_scales.tolist(), self.velocity_frame == "field", self.n_blue)
 
-    def _check_starts(self) -> None:
-        """Raise ValueError unless matches can start on a field other than the default."""
+    def _check_starts(self, option: str) -> None:
+        """Raise ValueError unless matches can start with an option other than the default."""
         rng = WorldRng.seeded(0, TRIAL_STARTS)
         try:
             rows = self.get_initial_positions_frame(rng).rows
@@ -239,7 +239,7 @@ class Ssl(Soccer):
             simulator.place(np.ones(TRIAL_STARTS, np.bool_), rows, rows.copy())
         except ValueError as error:
             raise ValueError(
-                f"field: no space for the initial state of this task on {self.field!r}: {error}"
+                f"{option}: no space for the initial state of this task on {self.field!r}: {error}"
             ) from error
 
 

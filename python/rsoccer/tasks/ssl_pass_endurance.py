@@ -9,7 +9,7 @@ import numpy as np
 from rsoccer import rewards
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.game import BLUE, EventKind
-from rsoccer.task import LEARN, Learn, Play
+from rsoccer.task import Learn, Play
 from rsoccer.tasks.ssl_pass import SslPass
 
 
@@ -34,11 +34,12 @@ class SslPassEndurance(SslPass):
     ================  ==============================================================  ========
 
     Termination: pass received; pass failed, that is, the released ball stopped or moves away from
-    blue_1, blue_1 got the ball without a pass, or the ball is off the field. Truncation: after
-    `max_steps`.
+    blue_1, blue_1 got the ball without a pass, opponents had the ball in a mouth for 0.25 s in a
+    row, or the ball is off the field. Truncation: after `max_steps`.
 
     Metrics: `received`, 1 or 0; `inverse_distance`, 1/m, of the distance between ball and blue_1,
-    the paper's.
+    the paper's; `possession`, time for which blue touched the ball last, s; `interceptions`, passes
+    that an opponent caught.
 
     Source: SSL hardware challenges 2021, challenge 4, and the rSoccer paper (2021).
     """
@@ -65,12 +66,12 @@ class SslPassEndurance(SslPass):
     """Weights of the rSoccer paper (2021) in these terms."""
 
     def default_controllers(self) -> dict[str, str | Learn]:
-        """Return `LEARN` for blue_0 and "receive" for blue_1."""
-        return {"blue_0": LEARN, "blue_1": "receive"}
+        """Return `LEARN` for blue_0, "receive" for blue_1, and `opponent` for yellow robots."""
+        return {**super().default_controllers(), "blue_1": "receive"}
 
     def new_memory(self, n: int) -> dict[str, Array]:
         """Create `released`, (n,) whether the ball has left the reach of blue_0."""
-        return {"released": np.zeros(n, np.bool_)}
+        return {**super().new_memory(n), "released": np.zeros(n, np.bool_)}
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         """Compute the reward terms of the class's table; pass received or failed terminates."""
@@ -83,6 +84,7 @@ class SslPassEndurance(SslPass):
         missed = released & self._has_missed(play.frame, play.frame.blue.position[:, 1])
         handed_over = play.frame.blue.infrared[:, 1] > 0.5
         failed = missed | handed_over | self.is_off_field(play.frame.ball.position)
+        failed |= self._has_been_taken(play)
         failed &= ~received
         terms = {
             "received": received[:, None].astype(np.float32),
@@ -94,9 +96,10 @@ class SslPassEndurance(SslPass):
         return rewards.weighted_terms(terms, self.term_weights), received | failed
 
     def metrics(self, play: Play) -> dict[str, Floats]:
-        """Compute `received`, 1 or 0, and `inverse_distance`, 1/m; each (n,)."""
+        """Compute the metrics of the class's documentation, each (n,)."""
         distance: Floats = np.maximum(self._ball_distances(play.frame)[:, 1], self.mouth_offset)
         return {
             "received": play.game.passes[:, BLUE].astype(np.float32),
             "inverse_distance": (1.0 / distance).astype(np.float32),
+            **self._possession_metrics(play),
         }

@@ -40,9 +40,11 @@ class SslPassEnduranceMulti(SslPass):
     ================  ==============================================================  ========
 
     Termination: a pass failed, that is, the passed ball stopped or moves away from the receiver,
-    or the ball is off the field. Truncation: after `max_steps`.
+    or the ball is off the field; opponents had the ball in a mouth for 0.25 s in a row. Truncation:
+    after `max_steps`.
 
-    Metric: `passes`, the number of passes that counted.
+    Metrics: `passes`, the number of passes that counted; `possession`, time for which blue touched
+    the ball last, s; `interceptions`, passes that an opponent caught.
 
     Source: SSL hardware challenges 2021, challenge 4, and the rSoccer paper (2021).
     """
@@ -99,7 +101,11 @@ class SslPassEnduranceMulti(SslPass):
         `holder` (n,) is the index of the last robot with the ball, `on_its_way` (n,) whether the
         ball has left its reach.
         """
-        return {"holder": np.zeros(n, np.int64), "on_its_way": np.zeros(n, np.bool_)}
+        return {
+            **super().new_memory(n),
+            "holder": np.zeros(n, np.int64),
+            "on_its_way": np.zeros(n, np.bool_),
+        }
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         """Compute the reward terms of the class's table; a failed pass terminates."""
@@ -116,7 +122,7 @@ class SslPassEnduranceMulti(SslPass):
         # From here on the holder may be the former receiver.
         next_receiver = play.frame.blue.position[worlds, 1 - memory["holder"]]
         missed = memory["on_its_way"] & self._has_missed(play.frame, next_receiver)
-        failed = missed | self.is_off_field(play.frame.ball.position)
+        failed = missed | self.is_off_field(play.frame.ball.position) | self._has_been_taken(play)
         terms = {
             "passes": passed[:, None].astype(np.float32),
             "ball_to_teammate": progress[:, None],
@@ -127,8 +133,9 @@ class SslPassEnduranceMulti(SslPass):
         return rewards.weighted_terms(terms, self.term_weights), failed
 
     def metrics(self, play: Play) -> dict[str, Floats]:
-        """Compute `passes`, (n,) the number of passes that counted."""
-        return {"passes": play.game.passes[:, BLUE].astype(np.float32)}
+        """Compute the metrics of the class's documentation, each (n,)."""
+        passes = play.game.passes[:, BLUE].astype(np.float32)
+        return {"passes": passes, **self._possession_metrics(play)}
 
     def _receiver(self, play: Play, world: int) -> int:
         """Index of the robot other than the last holder."""

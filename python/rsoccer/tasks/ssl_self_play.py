@@ -12,9 +12,10 @@ from rsoccer.arrays import Floats, Mask
 from rsoccer.frame import Frame
 from rsoccer.game import EventKind
 from rsoccer.rng import WorldRng
-from rsoccer.rules import BallOut, Crossings, Passes, Rule
+from rsoccer.rules import BallOut, Crossings, Possession, Rule
 from rsoccer.task import Play
 from rsoccer.tasks.ssl import Ssl
+from rsoccer.view import SIDES
 
 MIN_START_DISTANCE: Final = 0.3
 """Least distance between centers in the initial state, m."""
@@ -52,7 +53,10 @@ class SslSelfPlay(Ssl):
     Termination: a goal of either team. Truncation: after `max_steps`.
 
     Metrics: `goal_score`, 1 if blue scored, -1 if yellow scored, else 0; `blue_passes`, passes from
-    a robot of blue to a teammate's mouth over at least 0.5 m; `yellow_passes`, those of yellow.
+    a robot of blue to a teammate's mouth over at least 0.5 m; `yellow_passes`, those of yellow;
+    `blue_possession`, share of the time after the first touch in which blue touched the ball last;
+    `yellow_possession`, that of yellow; `blue_interceptions`, balls of yellow that a robot of blue
+    caught after at least 0.5 m; `yellow_interceptions`, those of yellow.
 
     Source: SSL rules for the position of a ball that left the field. The rSoccer paper has no such
     task, so its weights are the default ones.
@@ -93,8 +97,8 @@ class SslSelfPlay(Ssl):
 
     @cached_property
     def rules(self) -> Sequence[Rule]:
-        """Goals count, a ball that leaves the field is repositioned, passes are counted."""
-        return Crossings(), BallOut(self.config), Passes(MIN_PASS_LENGTH)
+        """Goals count, a ball that leaves the field is repositioned, possession is counted."""
+        return Crossings(), BallOut(self.config), Possession(MIN_PASS_LENGTH)
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         """Compute the reward terms of the class's table; a goal terminates."""
@@ -109,13 +113,20 @@ class SslSelfPlay(Ssl):
         return rewards.weighted_terms(terms, self.term_weights), rewards.scored(play)
 
     def metrics(self, play: Play) -> dict[str, Floats]:
-        """Compute `goal_score`, `blue_passes` and `yellow_passes`, each (n,)."""
-        blue, yellow = play.game.passes.T.astype(np.float32)
-        return {
-            "goal_score": rewards.goal_score(play),
-            "blue_passes": blue,
-            "yellow_passes": yellow,
+        """Compute the metrics of the class's documentation, each (n,)."""
+        game = play.game
+        with_ball = np.maximum(game.possession_steps.sum(axis=1, keepdims=True), 1)
+        of_teams = {
+            "passes": game.passes,
+            "possession": game.possession_steps / with_ball,
+            "interceptions": game.interceptions,
         }
+        counted = {
+            f"{side}_{name}": values[:, team].astype(np.float32)
+            for name, values in of_teams.items()
+            for team, side in enumerate(SIDES)
+        }
+        return {"goal_score": rewards.goal_score(play), **counted}
 
     def _passes(self, play: Play) -> Floats:
         """Passes of each observer's team that arrived in the last step, (n, observers)."""

@@ -148,6 +148,16 @@ TASK_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
         # passing, and with -1 for a failure the first passes, which fail, are not worth a try.
         "task_options": {"reward_weights": {"failed": -0.2, "ball_to_teammate": 0.2}},
     },
+    "SSLKeepaway-v0": {
+        **_SSL,
+        "samples": 20 * M,
+        "network.action_std": 0.3,
+        "network.initial_action": _KEEP_BALL,
+        # The robots of a team see the same ball, and are rewarded alike.
+        "network.central_critic": True,
+        "ppo.n_minibatches": 16,
+        "ppo.mirror_augmentation": True,
+    },
     "SSLSelfPlay-v0": {
         **_SSL,
         "samples": 20 * M,

@@ -6,8 +6,8 @@ import numpy as np
 
 from rsoccer.arrays import Floats
 from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
-from rsoccer.policies.rolling import RollingLaw
 from rsoccer.policies.ssl import motion
+from rsoccer.policies.ssl.pass_lines import PassSpeed
 from rsoccer.policies.ssl.region import Region
 from rsoccer.policies.ssl.robot_control import RobotControl, require_ssl
 from rsoccer.rng import WorldRng
@@ -48,11 +48,7 @@ class Passer(Policy):
         if task.n_blue < 2:
             raise ValueError(f"task: passer needs a teammate, got {task.name}")
         self._region = Region.of_field(task.config.field, LINE_MARGIN)
-        ball = task.config.ball
-        self._ratio = ball.slide_to_roll_ratio
-        # A kicked ball slides until its speed is the rolling share of the kick: v² = k² - 2 d s.
-        self._slides = np.float32((1.0 - self._ratio**2) / (2.0 * ball.sliding_deceleration))
-        self._rolling = RollingLaw(ball)
+        self._pass_speed = PassSpeed(task.config.ball)
 
     def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
         """Return actions, (n, robots, 5)."""
@@ -90,7 +86,7 @@ class Passer(Policy):
         distance = np.maximum(norm(x, y) - self._control.mouth_distance, np.float32(0.0))
         extra = LONG_PASS_GAIN * np.maximum(distance - LONG_PASS, np.float32(0.0))
         arrival = ARRIVAL_SPEED + extra
-        speed = self._rolling.kick_speed(distance, arrival, self._ratio, self._slides)
+        speed = self._pass_speed.kick(distance, arrival)
         return np.where(ready, speed, np.float32(0.0))
 
     def _receiving_velocity(self, view: View) -> XY:
