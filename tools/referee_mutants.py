@@ -3,7 +3,7 @@
 cargo-mutants lists the mutants of `crates/rsim-referee`: changes of a function's value, of an
 operator, of a branch. A mutant that compiles is viable, and caught if a test of the crate fails or
 does not end. The crate is built as a dynamic library under tests that are compiled once, so that a
-mutant takes seconds. Where a test program has code of the library inside, all is compiled anew.
+mutant takes a second. Where test programs have code of the library inside, all is compiled anew.
 """
 
 import argparse
@@ -14,9 +14,10 @@ import shutil
 import subprocess
 import sys
 import time
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any, Final, Literal
 
@@ -27,8 +28,8 @@ PACKAGE: Final = "rsim-referee"
 CRATE: Final = Path("crates") / PACKAGE
 FOLDER: Final = ROOT / "target" / "mutants"
 CARGO: Final = os.environ.get("CARGO", "cargo")
-INLINED: Final = ("column.rs", "sight.rs")
-"""Files with generic and inlined functions, which tests have inside."""
+GENERIC: Final = ("column.rs",)
+"""Files with generic functions, which test programs have inside."""
 LIMIT: Final = 60.0
 """Time after which a test program does not end, s."""
 
@@ -89,8 +90,12 @@ class Workshop:
             RuntimeError: the tests fail without any change.
         """
         self.folder = folder
+        self.catchers: defaultdict[tuple[Path, Path], list[str]] = defaultdict(list)
+        """Tests of a program that caught mutants of a file: the first to run for its next ones."""
         shutil.rmtree(folder / CRATE, ignore_errors=True)
         shutil.copytree(ROOT / CRATE, folder / CRATE)
+        for path in (folder / CRATE).rglob("*.rs"):
+            path.write_text(path.read_text().replace("#[inline]", ""))
         shutil.copyfile(ROOT / "Cargo.lock", folder / "Cargo.lock")
         whole = (ROOT / "Cargo.toml").read_text()
         members = f'members = ["{CRATE}"]'
@@ -101,7 +106,7 @@ class Workshop:
         with (folder / CRATE / "Cargo.toml").open("a") as manifest:
             manifest.write('\n[lib]\ncrate-type = ["dylib"]\n')
         self.programs = self.build("test", "--no-run", "--test", "*") or []
-        if not self.programs or self.test() != "missed":
+        if not self.programs or any(map(self.run, self.programs)) or self.test("--lib"):
             raise RuntimeError("the tests fail without any change")
 
     def build(self, *command: str) -> list[Path] | None:
@@ -113,7 +118,7 @@ class Workshop:
         ran = subprocess.run(
             [CARGO, *command, "--package", PACKAGE, "--message-format", "json"],
             cwd=self.folder,
-            env={**os.environ, "RUSTFLAGS": "-C prefer-dynamic --cap-lints allow"},
+            env={**os.environ, "RUSTFLAGS": "-C prefer-dynamic", "CARGO_PROFILE_TEST_DEBUG": "0"},
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
             text=True,
@@ -135,48 +140,75 @@ class Workshop:
         try:
             if self.build("build", "--lib", "--profile", "test") is None:
                 return "unviable"
-            if mutant.file.name not in INLINED:
-                return self.test()
-            programs = self.build("test", "--no-run", "--test", "*")
-            return "unviable" if programs is None else self.test()
+            if mutant.file.name not in GENERIC:
+                return self.try_known(mutant.file) or self.test("--lib") or "missed"
+            return self.test("--lib") or self.test("--test", "*") or "missed"
         finally:
             path.write_text(source)
 
-    def test(self) -> Outcome:
-        """Return what the tests say of the library as it is: those of rules first."""
-        for program in self.programs:
-            if (outcome := self.run(program)) != "missed":
-                return outcome
-        own = self.build("test", "--no-run", "--lib")
-        return "unviable" if own is None else self.run(own[0])
+    def test(self, *which: str) -> Outcome | None:
+        """Compile test programs and return what they say; None if they pass.
 
-    def run(self, program: Path) -> Outcome:
-        """Return what a test program says.
+        Args:
+            which: options of cargo that name the programs.
+        """
+        programs = self.build("test", "--no-run", *which)
+        if programs is None:
+            return "unviable"
+        return next(filter(None, map(self.run, programs)), None)
+
+    def try_known(self, file: Path) -> Outcome | None:
+        """Return what the compiled tests say, those that caught mutants of a file first.
+
+        Args:
+            file: the file.
+        """
+        for program in self.programs:
+            if (known := self.catchers[file, program]) and (found := self.run(program, *known)):
+                return found
+        for program in self.programs:
+            if found := self.run(program, catchers=self.catchers[file, program]):
+                return found
+        return None
+
+    def run(self, program: Path, *names: str, catchers: list[str] | None = None) -> Outcome | None:
+        """Return what a test program says; None if it passes.
 
         Args:
             program: the program.
+            names: names of the tests that are run; default: all.
+            catchers: list to which names of tests that fail are added.
         """
-        libraries = f"{self.folder / 'target' / 'debug' / 'deps'}:{_sysroot() / 'lib'}"
-        environment = {**os.environ, "LD_LIBRARY_PATH": libraries, "RUST_BACKTRACE": "0"}
+        environment = {
+            **os.environ,
+            "LD_LIBRARY_PATH": f"{self.folder / 'target' / 'debug' / 'deps'}:{_libraries()}",
+            "RUSTC_BOOTSTRAP": "1",  # the option is not stable yet
+            "RUST_BACKTRACE": "0",
+        }
+        command = [program, "-Zunstable-options", "--fail-fast"]
         try:
             ran = subprocess.run(
-                [program],
+                [*command, "--exact", *names] if names else command,
                 env=environment,
                 cwd=self.folder / CRATE,
                 capture_output=True,
+                text=True,
                 timeout=LIMIT,
             )
         except subprocess.TimeoutExpired:
             return "timeout"
         if ran.returncode == 127:
-            raise RuntimeError(f"{program}: {ran.stderr.decode()}")
-        return "caught" if ran.returncode else "missed"
+            raise RuntimeError(f"{program}: {ran.stderr}")
+        if catchers is not None:
+            catchers += re.findall(r"(?m)^test (\S+) \.\.\. FAILED$", ran.stdout)
+        return "caught" if ran.returncode else None
 
 
-def _sysroot() -> Path:
-    """The folder of the compiler."""
+@cache
+def _libraries() -> str:
+    """The folder of the compiler's own libraries."""
     rustc = os.environ.get("RUSTC", "rustc")
-    return Path(subprocess.check_output([rustc, "--print", "sysroot"], text=True).strip())
+    return subprocess.check_output([rustc, "--print", "target-libdir"], text=True).strip()
 
 
 def mutants(folder: Path) -> Iterator[Mutant]:
