@@ -9,6 +9,7 @@ mutant takes a second. Where test programs have code of the library inside, all 
 import argparse
 import json
 import os
+import random
 import re
 import shutil
 import subprocess
@@ -230,11 +231,16 @@ def main(arguments: list[str] | None = None) -> int:
     """
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--only", default="", help="expression that names of mutants contain")
+    parser.add_argument(
+        "--sample", type=int, help="number of mutants, drawn at random; default: all"
+    )
     parser.add_argument("--shard", default="0/1", help="K/N: each Nth mutant, from the Kth on")
     parser.add_argument("--log", type=Path, help="file that gets a line for each mutant")
     options = parser.parse_args(arguments)
     nth, shards = map(int, options.shard.split("/"))
     chosen = [mutant for mutant in mutants(ROOT) if re.search(options.only, mutant.name)]
+    if options.sample:
+        chosen = random.Random(1).sample(chosen, min(options.sample, len(chosen)))
     workshop = Workshop(FOLDER / f"{nth}-{shards}")
     found: dict[Mutant, Outcome] = {}
     for mutant in chosen[nth::shards]:

@@ -155,3 +155,6 @@ def test_a_shard_of_the_chosen_mutants_is_judged_and_logged(
     assert "| all | 2 | 0 | 2 | 0.0% |" in capsys.readouterr().out
     lines = log.read_text().splitlines()
     assert len(lines) == 2 and all(re.match(r"missed +\d+\.\d s crates/", line) for line in lines)
+    judged.clear()
+    assert main(["--shard", "1/2", "--sample", "4"]) == 0
+    assert len(judged) == 2 and set(judged) < set(every)
