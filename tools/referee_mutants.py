@@ -186,7 +186,7 @@ class Workshop:
             "RUSTC_BOOTSTRAP": "1",  # the option is not stable yet
             "RUST_BACKTRACE": "0",
         }
-        command = [program, "-Zunstable-options", "--fail-fast"]
+        command = [str(program), "-Zunstable-options", "--fail-fast"]
         try:
             ran = subprocess.run(
                 [*command, "--exact", *names] if names else command,

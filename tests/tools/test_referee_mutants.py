@@ -115,8 +115,8 @@ def test_failing_tests_are_read_from_the_output_of_a_program(
     output = "test areas::a ... ok\ntest areas::b ... FAILED\n"
     answers = [(101, output), (0, ""), (127, "no library")]
 
-    def answer(command: list[Path | str], **options: object) -> SimpleNamespace:
-        assert command[0] == tmp_path and options["timeout"]
+    def answer(command: list[str], **options: object) -> SimpleNamespace:
+        assert command[0] == str(tmp_path) and options["timeout"]
         code, text = answers.pop(0)
         return SimpleNamespace(returncode=code, stdout=text, stderr=text)
 
