@@ -25,6 +25,7 @@ from tools.match_audit import AuditError, MatchAudit
 
 STORED: Final = RESULTS / "soak_matches.md"
 SIDES: Final = ("random", "crowd", "scripted")
+HEADER: Final = ("scene", "sides", "matches", "hours", "idle (s)", "resumed", "kinds", "goals")
 HELD: Final = 10
 """Steps for which random actions are held."""
 RESUMES: Final = 1 / 150
@@ -192,9 +193,12 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--only", default="", help="scenes with this text in their name")
     parser.add_argument("--sides", nargs="+", choices=SIDES, default=SIDES)
     parser.add_argument("--seed", type=int, default=0, help="seed of the first match")
-    parser.add_argument("--store", action="store_true", help=f"write {STORED.name}")
+    parser.add_argument(
+        "--store", action="store_true", help=f"write {STORED.name}; rows of other scenes stay"
+    )
     options = parser.parse_args(arguments)
-    rows, faults = [], 0
+    rows: list[tuple[str, ...]] = []
+    faults = 0
     for scene in SCENES:
         for sides in options.sides if options.only in scene.name else ():
             start = time.process_time()
@@ -207,12 +211,26 @@ def main(arguments: list[str] | None = None) -> int:
                 rows.append((scene.name, sides, *_cells(found)))
             taken = time.process_time() - start
             sys.stderr.write(f"{taken:.0f} s: {' | '.join(rows[-1])}\n")
-    header = ("scene", "sides", "matches", "hours", "idle (s)", "resumed", "kinds", "goals")
-    text = f"{table(header, rows)}\n"
-    sys.stdout.write(text)
+    sys.stdout.write(f"{table(HEADER, rows)}\n")
     if options.store:
-        STORED.write_text(text)
+        STORED.write_text(f"{table(HEADER, with_stored(rows))}\n")
     return faults
+
+
+def with_stored(rows: list[tuple[str, ...]]) -> list[tuple[str, ...]]:
+    """Return rows of a run and those of an older run for other scenes or sides.
+
+    Args:
+        rows: rows of the run.
+
+    Returns:
+        The rows in the order of the scenes.
+    """
+    lines = (line[2:-2].split(" | ") for line in results().splitlines()[2:])
+    found = {(cells[0], cells[1]): tuple(cells) for cells in lines}
+    found |= {(row[0], row[1]): row for row in rows}
+    keys = ((scene.name, sides) for scene in SCENES for sides in SIDES)
+    return [found[key] for key in keys if key in found]
 
 
 def results() -> str:

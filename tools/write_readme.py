@@ -22,7 +22,7 @@ from rsoccer import policies
 from rsoccer.policies import trained
 from rsoccer.policies.policy_file import read_file
 from rsoccer.tasks import legacy_names
-from tools import leaderboard, referee_tables, senses_tables, soak_matches
+from tools import leaderboard, referee_scenes, referee_tables, senses_tables, soak_matches
 from tools.library_speed import libraries
 from tools.paths import DOCS, ROOT
 from tools.protocols import codes, fields
@@ -266,12 +266,14 @@ PARTS: dict[str, Callable[[], str]] = {
     "senses_randomization": senses_tables.randomization,
     "soak_matches": soak_matches.results,
     "ssl_rules": referee_tables.ssl_rules,
+    "ssl_scenes": referee_scenes.ssl_scenes,
     "speed": speed,
     "speed_feature": feature,
     "speed_summary": summary,
     "tasks": tasks,
     "training_speed": training_speed,
     "vsss_rules": referee_tables.vsss_rules,
+    "vsss_scenes": referee_scenes.vsss_scenes,
     "whole_matches": whole_matches,
 }
 

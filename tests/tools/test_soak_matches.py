@@ -152,3 +152,7 @@ def test_the_table_has_a_row_for_each_scene_and_side(
     assert text.count("FAULT: the clock is wrong") == 2
     assert "| SSL 11 v 11, A, robots | scripted | 100 | 0.01 | 8.0 | 3 | 5 | 7 |" in text
     assert len(SIDES) * len(SCENES) == 30
+    assert soak_matches.main(["--only", "VSSS 5", "--sides", "scripted", "random", "--store"]) == 0
+    lines = soak_matches.results().splitlines()
+    assert lines[:2] + lines[4:] == text.splitlines(), "rows of other scenes have changed"
+    assert [line.split(" | ")[1] for line in lines[2:4]] == ["random", "scripted"]

@@ -162,6 +162,27 @@ pub(crate) mod tests {
     }
 
     #[test]
+    fn lines_do_not_belong_to_the_inner_area() {
+        let lines = Lines { inner_area_depth: 0.5, half_inner_area_width: 0.75, ..SSL_B };
+        for (x, y, expected) in [
+            (4.25, 0.5, true),
+            (4.75, 0.5, true),
+            (4.0, 0.5, false),
+            (4.25, 0.75, false),
+            (4.25, -0.75, false),
+            (3.75, 0.0, false),
+        ] {
+            assert_eq!(
+                lines.is_in_inner_area(Vector::new(x, y), Team::Yellow),
+                expected,
+                "{x} {y}"
+            );
+            assert_eq!(lines.is_in_inner_area(Vector::new(-x, y), Team::Blue), expected, "{x} {y}");
+            assert!(!lines.is_in_inner_area(Vector::new(x, y), Team::Blue));
+        }
+    }
+
+    #[test]
     fn each_team_has_its_own_goal_and_mark() {
         assert_eq!(SSL_B.goal(Team::Blue), Vector::new(-4.5, 0.0));
         assert_eq!(SSL_B.penalty_mark(Team::Blue), Vector::new(-1.5, 0.0));

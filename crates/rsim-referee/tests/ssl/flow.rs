@@ -61,3 +61,25 @@ fn a_match_begins_where_its_ball_is() {
         assert!((scene.game.stuck_position.x - 0.5).abs() < 1e-6);
     }
 }
+
+#[test]
+fn a_line_up_is_that_of_the_other_team_after_half_a_turn() {
+    for division in [A, B] {
+        let referee = referee(division, |_| {});
+        let mut row = vec![0.0; referee.layout().row_size()];
+        referee.line_up(&mut row).expect("a row of this layout");
+        let sight = referee.layout().sight(&row).expect("a row of this layout");
+        let (lines, size) = (&referee.pitch().lines, referee.layout().team_size(Team::Blue));
+        for number in 0..size {
+            let [blue, yellow] =
+                [number, size + number].map(|index| sight.robot(index).expect("present").position);
+            expect_near((blue.x, blue.y), (-yellow.x, -yellow.y));
+            assert!(blue.x < 0.0);
+        }
+        // The third robot of blue is on the left of the second, as blue sees the field.
+        let third = sight.robot(2).expect("present").position;
+        expect_near((third.x, third.y), (-0.5 * lines.half_length, 0.25 * lines.half_width));
+        assert_eq!(sight.ball().position, rsim_referee::Vector::default());
+        assert!(sight.robots().all(|robot| robot.heading.x * robot.position.x < 0.0));
+    }
+}

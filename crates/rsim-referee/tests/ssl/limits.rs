@@ -2,7 +2,7 @@
 
 use rsim_referee::codes::Command::{BallPlacement, DirectFree, ForceStart};
 use rsim_referee::events::EventKind::{
-    BotInterferedPlacement, NoProgressInGame, PlacementSucceeded,
+    BotCrashUnique, BotInterferedPlacement, NoProgressInGame, PlacementSucceeded,
 };
 
 use crate::scene::{B, ROBOT_RADIUS, Scene, Them, Us, views, views_with_placement};
@@ -15,6 +15,18 @@ fn a_contact_at_one_and_a_half_meters_per_second_is_no_crash() {
         scene.collide((Us, 4), (Them, 4), 1.5);
         scene.step();
         scene.expect_play();
+    }
+}
+
+#[test]
+fn a_robot_that_is_three_decimeters_per_second_faster_is_at_fault_alone() {
+    for mut scene in views(B) {
+        scene.robot_velocity((Us, 4), 0.3, 0.0);
+        scene.settle();
+        scene.collide((Us, 4), (Them, 4), 2.0);
+        scene.step();
+        assert_eq!(scene.only(BotCrashUnique).bot, Some((Us, 4)));
+        scene.expect_fouls(1, 0);
     }
 }
 

@@ -193,6 +193,19 @@ fn after_thirty_seconds_a_placement_has_failed() {
 }
 
 #[test]
+fn a_ball_that_is_placed_in_the_last_step_is_placed() {
+    for mut scene in place_for_us(B) {
+        scene.run(30.0, |scene| scene.game.command_steps == scene.game.wait_steps - 1);
+        scene.expect_command(BallPlacement, Us);
+        scene.ball(1.0, 2.0);
+        scene.step();
+        scene.expect_team(PlacementSucceeded, Some(Us), (1.0, 2.0));
+        assert_eq!(scene.count_of(PlacementFailed), 0);
+        scene.expect_command(DirectFree, Us);
+    }
+}
+
+#[test]
 fn in_division_a_the_free_kick_passes_and_in_b_it_stays() {
     for (division, kicking) in [(A, Them), (B, Us)] {
         for mut scene in place_for_us(division) {

@@ -179,6 +179,24 @@ fn before_a_penalty_kick_the_keepers_line_and_the_room_behind_the_ball_hold_all(
 }
 
 #[test]
+fn before_a_penalty_kick_the_keeper_is_put_straight_back_on_its_line() {
+    for aside in [0.0, 0.2, -0.3] {
+        let bodies = |scene: &mut Scene| scene.robot((Them, 0), 3.7, aside);
+        for scene in arranged(B, PreparePenalty, (-1.5, 0.0), bodies) {
+            expect_near(at(&scene, (Them, 0)), (4.5, aside));
+        }
+    }
+    for aside in [0.9, -0.9] {
+        let bodies = |scene: &mut Scene| scene.robot((Them, 0), 3.7, aside);
+        for scene in arranged(B, PreparePenalty, (-1.5, 0.0), bodies) {
+            let (x, y) = at(&scene, (Them, 0));
+            let from_post = (x - 4.5).hypot(y - 0.41_f32.copysign(aside));
+            assert!(from_post < 0.1, "at the post on its side: {x} {y}");
+        }
+    }
+}
+
+#[test]
 fn a_ball_that_rests_at_its_place_stays_and_others_are_put_there() {
     for (x, height, speed, is_put) in [
         (0.005, 0.0, 0.0, false),

@@ -5,7 +5,7 @@ use rsim_referee::events::EventKind::{
     AttackerDoubleTouchedBall, BotDribbledBallTooFar, BotKickedBallTooFast, NoProgressInGame,
 };
 
-use crate::scene::{A, B, Scene, Them, Us, views};
+use crate::scene::{A, B, Scene, Them, Us, expect_near, views};
 
 #[test]
 fn the_kicker_must_not_touch_the_ball_again() {
@@ -99,6 +99,23 @@ fn dribble(scene: &mut Scene, from: f32, to: f32) {
         scene.touch((Us, 1));
         scene.step();
         x += 0.04;
+    }
+}
+
+#[test]
+fn a_new_touch_is_where_the_ball_was_and_one_that_lasts_where_it_is() {
+    for (lasts, x) in [(false, 1.0), (true, 1.2)] {
+        for mut scene in views(B) {
+            scene.ball(1.0, 1.0);
+            scene.settle();
+            if lasts {
+                scene.touched_before((Us, 1));
+            }
+            scene.touch((Us, 1));
+            scene.ball(1.2, 1.0);
+            scene.step();
+            expect_near(scene.back(scene.game.last_touch_position), (x, 1.0));
+        }
     }
 }
 

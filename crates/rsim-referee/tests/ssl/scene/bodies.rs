@@ -103,6 +103,14 @@ impl Scene {
         self.row[BALL.len() - 1] = f32::from(u8::try_from(self.index(bot)).expect("few robots"));
     }
 
+    /// A robot touched the ball in the last step.
+    pub(crate) fn touched_before(&mut self, bot: Bot) {
+        let row = self.row.clone();
+        *self.robot_column(bot, "touched_ball") = 1.0;
+        let touched = std::mem::replace(&mut self.row, row);
+        self.before = touched;
+    }
+
     /// Says how fast the ball was right after its last touch in the step, and how high since.
     pub(crate) fn since_touch(&mut self, speed: f32, height: f32) {
         self.since_touch = Some((speed, height));

@@ -12,6 +12,7 @@ use rsim_referee::codes::Stage;
 use rsim_referee::config::{Placement, RefereeConfig};
 use rsim_referee::events::EventKind;
 use rsim_referee::game::Game;
+use rsim_referee::statistics::Statistics;
 use rsim_referee::{Decisions, Referee, Team, Vector};
 
 pub(crate) use bodies::{BALL, ROBOT};
@@ -50,6 +51,7 @@ pub(crate) struct Seen {
 pub(crate) struct Scene {
     pub(crate) referee: Referee,
     pub(crate) game: Game,
+    pub(crate) statistics: Statistics,
     us: Team,
     /// 1, or -1 in a scene that is reflected across the field.
     aside: f32,
@@ -92,6 +94,7 @@ impl Scene {
         let mut scene = Self {
             referee,
             game: Game::new(us),
+            statistics: Statistics::default(),
             us,
             aside,
             before: row.clone(),
@@ -116,7 +119,8 @@ impl Scene {
         if team == self.us { Us } else { Them }
     }
 
-    fn index(&self, (side, number): Bot) -> usize {
+    /// Index of a robot in the order of a row.
+    pub(crate) fn index(&self, (side, number): Bot) -> usize {
         let first = if self.team(side) == Team::Blue { 0 } else { self.size() };
         assert!(number < self.size(), "no such robot");
         first + number
@@ -133,7 +137,8 @@ impl Scene {
         Vector::new(ahead * x, ahead * self.aside * y)
     }
 
-    fn back(&self, place: Vector) -> (f32, f32) {
+    /// A place on the field as one of the scene.
+    pub(crate) fn back(&self, place: Vector) -> (f32, f32) {
         let turned = self.turn((place.x, place.y));
         (turned.x, turned.y)
     }

@@ -3,7 +3,6 @@
 use rsim_referee::Team;
 use rsim_referee::codes::Command;
 use rsim_referee::events::Event;
-use rsim_referee::statistics::Statistics;
 
 use super::{Bot, Scene, Seen, Side, Us};
 
@@ -76,14 +75,13 @@ impl Scene {
     /// Judges a step that ends with the bodies where the test put them.
     pub(crate) fn step(&mut self) {
         self.write_since_touch();
-        let mut statistics = Statistics::default();
         let mut restart = vec![0.0; self.row.len()];
         self.referee
             .judge(
                 &self.before,
                 &self.row,
                 &mut self.game,
-                &mut statistics,
+                &mut self.statistics,
                 &mut restart,
                 &mut self.decisions,
             )
