@@ -1,7 +1,7 @@
 """Speed of matches as WebAssembly in Node, and of the same matches by native code, on one core.
 
 `python -m tools.playground.speed` prints control steps a second of processor time. The module is
-that of `make playground`.
+that of `make playground`, or another one: `--module PATH`.
 
 With `--page` it opens the page of `make playground` in a headless Chromium, without a graphics
 card, and prints when the page was first painted and when its match had begun, from the start of
@@ -61,10 +61,15 @@ def main() -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(description="Measure the speed of matches as WebAssembly.")
     parser.add_argument("--page", action="store_true", help="the page in Chromium, not the module")
-    if parser.parse_args().page:
+    parser.add_argument("--module", type=Path, default=MODULE, help="the WebAssembly module")
+    args = parser.parse_args()
+    if args.page:
         sys.exit(_measure_page())
+    if not args.module.is_file():
+        parser.error(f"--module: expected a file, got {args.module}: `make wasm` builds it")
+    print(f"module: {args.module.stat().st_size / 1e6:.2f} MB")
     for field, robots in MATCHES:
-        wasm = min(_wasm_seconds(field, robots) for _ in range(REPEATS))
+        wasm = min(_wasm_seconds(args.module, field, robots) for _ in range(REPEATS))
         native = min(_native_seconds(field, robots) for _ in range(REPEATS))
         rates = f"{STEPS / wasm:,.0f} steps/s as WebAssembly, {STEPS / native:,.0f} by native code"
         print(f"{field}, {robots} v {robots}: {rates}, ratio {native / wasm:.2f}", flush=True)
@@ -90,11 +95,11 @@ def _measure_page() -> str | None:
     return None
 
 
-def _wasm_seconds(field: str, robots: int) -> float:
+def _wasm_seconds(module: Path, field: str, robots: int) -> float:
     """Processor time of a match in Node, s."""
     (blue, yellow), names = SKILLS, {"field": field, "robots": robots}
     script = _SCRIPT.format(**names, seed=SEED, blue=blue, yellow=yellow, steps=STEPS)
-    command = ["node", str(RUN), str(MODULE), script]
+    command = ["node", str(RUN), str(module), script]
     ran = subprocess.run(command, capture_output=True, text=True, check=True)
     return float(json.loads(ran.stdout))
 
