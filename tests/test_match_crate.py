@@ -70,10 +70,18 @@ def test_halves_are_as_long_as_those_of_the_rules() -> None:
     assert {RefereeConfig(name).half_seconds for name in played} == {HALF_SECONDS}
 
 
-def test_a_layout_is_that_of_the_task() -> None:
-    # A test of the crate asserts this text, and the end of another.
-    text = rsoccer.make_task("VSSSelfPlay-v0").layout.text
-    assert source("observations.rs").count(f'"{text}"') == 1
-    match = rsoccer.make_task("SSLMatch-v0", n_blue=3, n_yellow=3).layout.text
-    end = match[match.index("presence") :]
-    assert source("observations.rs").count(f'ends_with("{end}")') == 1
+def test_layouts_are_those_of_the_tasks() -> None:
+    # A test of the crate asserts these texts, in this order.
+    body = source("observations.rs").partition("fn texts_are_those_of_the_tasks")[2]
+    asserted = re.findall(r'"(ball [^"]+)"', body.partition("#[test]")[0])
+    three = {"n_blue": 3, "n_yellow": 3}
+    tasks = [
+        *(rsoccer.make_task(name) for name in ("VSSSelfPlay-v0", "VSSMatch-v0")),
+        *(
+            rsoccer.make_task(name, chip_kick=chip_kick, **three)
+            for chip_kick in (False, True)
+            for name in ("SSLSelfPlay-v0", "SSLMatch-v0")
+        ),
+    ]
+    assert asserted == [task.layout.text for task in tasks]
+    assert len(set(asserted)) == 6

@@ -32,7 +32,7 @@ def test_all_scripts_of_the_folder_are_on_the_page() -> None:
 
 def test_choices_have_scenes_and_policies_of_the_package() -> None:
     values = json.loads(json.dumps(data()))
-    assert len(values["leagues"]) == len(LEAGUES) >= 4
+    assert len(values["leagues"]) == len(LEAGUES) >= 5
     for league, given in zip(LEAGUES, values["leagues"], strict=True):
         assert values["scenes"][league.field]["bounds"]
         assert values["areas"][league.field]

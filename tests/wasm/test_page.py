@@ -122,6 +122,33 @@ def test_a_person_plays_and_pulls_the_ball(tmp_path: Path, width: int, height: i
     assert result["wide"]
 
 
+def test_the_narrow_board_shows_whole_names(tmp_path: Path) -> None:
+    names = [policy.name for league in LEAGUES for policy in league.policies]
+    cut = shown(
+        f"""
+        const cut = [];
+        for (const width of ["360px", "420px", "590px"]) {{
+          document.querySelector(".board").style.width = width;
+          for (const name of {json.dumps(names)}) {{
+            for (const id of ["name-blue", "name-yellow"]) {{
+              const element = document.getElementById(id);
+              element.textContent = name;
+              const fits = element.scrollWidth <= element.clientWidth;
+              if (!fits || element.scrollHeight > element.clientHeight) cut.push([width, name]);
+            }}
+          }}
+        }}
+        return [cut, window.innerWidth];
+        """,
+        tmp_path,
+        width=420,
+        height=860,
+    )
+    assert len(names) >= 3
+    assert cut[0] == []
+    assert cut[1] <= 600  # the rules of narrow pages hold
+
+
 def test_the_keyboard_drives_after_choices_by_pointer(tmp_path: Path) -> None:
     result = shown(
         """

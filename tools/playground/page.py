@@ -71,6 +71,8 @@ LEAGUES: Final = (
             Policy("robust", "best:robust of VSS-v0", "VSS-v0.robust.safetensors"),
         ),
     ),
+    # No shipped policy observes ten robots: people play, and policy files.
+    League("vss_5", "VSSS, 5 v 5", "vss_5v5", 5, "VSSMatch-v0"),
 )
 """Choices of the page, the first one is shown at first."""
 

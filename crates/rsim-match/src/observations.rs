@@ -159,21 +159,39 @@ mod tests {
     use super::*;
 
     #[test]
-    fn texts_are_those_of_policy_files() {
-        // Metadata `layout` of VSSSelfPlay-v0.safetensors and SSLSelfPlay-v0.safetensors.
-        let vss = Observations::new(&SimConfig::vss(3, 3), 2, false);
-        assert_eq!(
-            vss.text(),
-            "ball 4, ego 7, teammates 2x7, opponents 3x7, ball_polar 3, goal_polar 3, shot 4, \
-             own_goal_polar 3, own_goal_shot 3, body_velocities 2x2, body_positions 6x2, action 2"
-        );
-        let ssl = Observations::new(&SimConfig::ssl(3, 3), 5, false);
-        assert_eq!((vss.size(), ssl.size()), (80, 85));
-        let texts: Vec<String> = Observations::all(&SimConfig::ssl(3, 3), &[5, 6])
-            .iter()
-            .map(|layout| layout.text().to_owned())
-            .collect();
-        assert!(texts[3].ends_with("presence 6, action 6, game 27; chip kick"), "{texts:?}");
+    fn texts_are_those_of_the_tasks() {
+        // `tests/test_match_crate.py` compares these texts with the tasks'.
+        let cases = [
+            (
+                Observations::all(&SimConfig::vss(3, 3), &[2]),
+                vec![
+                    "ball 4, ego 7, teammates 2x7, opponents 3x7, ball_polar 3, goal_polar 3, shot 4, \
+                     own_goal_polar 3, own_goal_shot 3, body_velocities 2x2, body_positions 6x2, action 2",
+                    "ball 4, ego 7, teammates 2x7, opponents 3x7, ball_polar 3, goal_polar 3, shot 4, \
+                     own_goal_polar 3, own_goal_shot 3, body_velocities 2x2, body_positions 6x2, presence 6, \
+                     action 2, game 27",
+                ],
+            ),
+            (
+                Observations::all(&SimConfig::ssl(3, 3), &[5, 6]),
+                vec![
+                    "ball 6, ego 8, teammates 2x8, opponents 3x8, ball_polar 3, goal_polar 3, shot 4, \
+                     body_velocities 2x2, body_positions 6x2, action 5",
+                    "ball 6, ego 8, teammates 2x8, opponents 3x8, ball_polar 3, goal_polar 3, shot 4, \
+                     body_velocities 2x2, body_positions 6x2, presence 6, action 5, game 27",
+                    "ball 6, ego 8, teammates 2x8, opponents 3x8, ball_polar 3, goal_polar 3, shot 4, \
+                     body_velocities 2x2, body_positions 6x2, action 6; chip kick",
+                    "ball 6, ego 8, teammates 2x8, opponents 3x8, ball_polar 3, goal_polar 3, shot 4, \
+                     body_velocities 2x2, body_positions 6x2, presence 6, action 6, game 27; chip kick",
+                ],
+            ),
+        ];
+        for (layouts, texts) in cases {
+            assert_eq!(layouts.iter().map(Observations::text).collect::<Vec<_>>(), texts);
+        }
+        let sizes = [(SimConfig::vss(3, 3), 2), (SimConfig::ssl(3, 3), 5)]
+            .map(|(config, action_size)| Observations::new(&config, action_size, false).size());
+        assert_eq!(sizes, [80, 85]);
     }
 
     #[test]

@@ -113,7 +113,7 @@ class Playground {
   }
 
   showNames() {
-    for (const [team, id] of ["name-blue", "name-yellow"].entries()) $(id).textContent = this.sideName(team);
+    for (const [team, id] of ["name-blue", "name-yellow"].entries()) $(id).textContent = $(id).title = this.sideName(team);
   }
 
   policyFile(id) {
