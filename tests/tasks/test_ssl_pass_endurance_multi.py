@@ -126,8 +126,9 @@ def test_either_robot_starts_with_the_ball() -> None:
 
 def test_opponents_that_have_the_ball_end_the_episode() -> None:
     task = SslPassEnduranceMulti(n_opponents=1, opponent="hold")
-    poses = {"blue_0": (-1.5, 0.0), "blue_1": (1.5, 0.0, np.pi), "yellow_0": (0.0, 1.0)}
-    start = scene(task, ball=(float(task.mouth_offset), 1.0), **poses)
+    mouth = float(task.mouth_offset)
+    poses = {"blue_0": (0.0, 0.0), "blue_1": (2.5, 1.0, np.pi), "yellow_0": (2 * mouth, 0.0, np.pi)}
+    start = scene(task, ball=(mouth, 0.0), **poses)
     outcome, matches = run(task, start)
     assert outcome.terminated[0]
     assert outcome.terms["failed"][0].tolist() == [-1.0, -1.0]
