@@ -30,7 +30,7 @@ def test_a_team_without_replacement_scores_as_in_evaluations() -> None:
 def test_a_robot_replaced_by_the_same_policy_changes_nothing() -> None:
     """Starts are the same, and every robot is replaced in turn. `strike` draws no numbers."""
     task = SslSelfPlay(n_blue=2, n_yellow=2, max_steps=60)
-    found = rsoccer.cooperation("strike", "zero", 4, 1, task=task, replacements=["strike", "zero"])
+    found = rsoccer.cooperation("strike", "zero", 4, 1, task=task, replacements=["strike", "ou"])
     whole, same, other = found.line_ups
     assert same.score == whole.score
     assert same.measures == whole.measures
