@@ -148,8 +148,8 @@ def test_a_pass_that_an_opponent_catches_is_an_interception() -> None:
 
 def test_opponents_start_away_from_the_passers() -> None:
     task = SslPassEnduranceMulti(n_opponents=3)
-    assert task.sides == ("blue", "yellow")
-    assert SslPassEnduranceMulti().sides == ("blue",), "without opponents as before"
+    assert list(task.sides) == ["blue", "yellow"]
+    assert list(SslPassEnduranceMulti().sides) == ["blue"], "without opponents as before"
     frame = task.get_initial_positions_frame(WorldRng.seeded(0, 40))
     offset = frame.yellow.position[:, :, None] - frame.blue.position[:, None]
     assert np.linalg.norm(offset, axis=-1).min() > 1.0
