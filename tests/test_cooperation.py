@@ -8,9 +8,9 @@ import pytest
 import rsoccer
 from rsoccer import cli
 from rsoccer.evaluate.team_play import MEASURES
-from rsoccer.tasks import SslKeepaway, SslPassEndurance, VssSelfPlay
+from rsoccer.tasks import SslKeepaway, SslPassEndurance, SslSelfPlay, VssSelfPlay
 
-TASK = VssSelfPlay(max_steps=200)
+TASK = VssSelfPlay(max_steps=120)
 
 
 def test_a_team_without_replacement_scores_as_in_evaluations() -> None:
@@ -28,14 +28,15 @@ def test_a_team_without_replacement_scores_as_in_evaluations() -> None:
 
 
 def test_a_robot_replaced_by_the_same_policy_changes_nothing() -> None:
-    """Starts are the same, and every robot is replaced in turn."""
-    found = rsoccer.cooperation("chase", "zero", 12, 1, task=TASK, replacements=["chase"])
-    whole, same = found.line_ups
+    """Starts are the same, and every robot is replaced in turn. `strike` draws no numbers."""
+    task = SslSelfPlay(n_blue=2, n_yellow=2, max_steps=60)
+    found = rsoccer.cooperation("strike", "zero", 4, 1, task=task, replacements=["strike", "ou"])
+    whole, same, other = found.line_ups
     assert same.score == whole.score
     assert same.measures == whole.measures
     assert same.difference is not None
     assert same.difference.mean == 0.0
-    assert whole.score.mean != 0.0
+    assert other.measures["spread"] != whole.measures["spread"]
 
 
 def test_results_do_not_depend_on_the_batch() -> None:
@@ -47,7 +48,7 @@ def test_results_do_not_depend_on_the_batch() -> None:
     assert [each.replacement for each in few.line_ups] == ["-", "zero", "scripted"]
 
 
-def test_cross_play_of_a_policy_with_its_equal_has_no_gap() -> None:
+def test_cross_play_mixes_two_policies_in_a_team() -> None:
     found = rsoccer.cooperation(
         "chase", "ou", 8, 5, task=TASK, replacements=["zero"], partners=["zero"]
     )
@@ -60,11 +61,6 @@ def test_cross_play_of_a_policy_with_its_equal_has_no_gap() -> None:
     assert cross.gap.mean == pytest.approx(expected)
     assert "(2) zero" in str(found)
     assert "mixed teams less others" in str(found)
-    equal = rsoccer.cooperation(
-        "chase", "ou", 8, 5, task=TASK, replacements=["zero"], partners=["scripted:0.5"]
-    )
-    assert equal.cross_play is not None
-    assert equal.cross_play.scores[0][0] == cross.scores[0][0]
 
 
 def test_one_sided_tasks_are_measured_from_their_side() -> None:

@@ -126,8 +126,9 @@ def test_either_robot_starts_with_the_ball() -> None:
 
 def test_opponents_that_have_the_ball_end_the_episode() -> None:
     task = SslPassEnduranceMulti(n_opponents=1, opponent="hold")
-    poses = {"blue_0": (-1.5, 0.0), "blue_1": (1.5, 0.0, np.pi), "yellow_0": (0.0, 1.0)}
-    start = scene(task, ball=(float(task.mouth_offset), 1.0), **poses)
+    mouth = float(task.mouth_offset)
+    poses = {"blue_0": (0.0, 0.0), "blue_1": (2.5, 1.0, np.pi), "yellow_0": (2 * mouth, 0.0, np.pi)}
+    start = scene(task, ball=(mouth, 0.0), **poses)
     outcome, matches = run(task, start)
     assert outcome.terminated[0]
     assert outcome.terms["failed"][0].tolist() == [-1.0, -1.0]
@@ -147,8 +148,8 @@ def test_a_pass_that_an_opponent_catches_is_an_interception() -> None:
 
 def test_opponents_start_away_from_the_passers() -> None:
     task = SslPassEnduranceMulti(n_opponents=3)
-    assert task.sides == ("blue", "yellow")
-    assert SslPassEnduranceMulti().sides == ("blue",), "without opponents as before"
+    assert list(task.sides) == ["blue", "yellow"]
+    assert list(SslPassEnduranceMulti().sides) == ["blue"], "without opponents as before"
     frame = task.get_initial_positions_frame(WorldRng.seeded(0, 40))
     offset = frame.yellow.position[:, :, None] - frame.blue.position[:, None]
     assert np.linalg.norm(offset, axis=-1).min() > 1.0

@@ -76,7 +76,7 @@ class Cooperation:
         )
 
     def _title(self) -> str:
-        """What was played."""
+        """Task, teams and number of matches."""
         return f"{self.task}: {self.policy} against {self.opponent}, {self.matches} matches each"
 
     def _tables(self) -> list[list[Cells]]:

@@ -85,6 +85,9 @@ class Team:
             policy: policy of the team.
             replacement: policy of the robot that is replaced; None for none.
 
+        Returns:
+            Results from each side, in the order of the starts.
+
         Raises:
             ValueError: a team of one robot.
         """
@@ -97,6 +100,9 @@ class Team:
         Args:
             first: policy of the first robots, and of the last ones.
             second: policy of the others.
+
+        Returns:
+            Results from each side, in the order of the starts.
         """
         sets = []
         for index in range(len(self.sides)):

@@ -172,13 +172,13 @@ class SslKeepaway(Ssl):
 
     def default_controllers(self) -> dict[str, str | Learn]:
         """Return `LEARN` for the robots of the option `learners`, and a policy for the others."""
-        other = self.opponent or SCRIPTS.get(self.learners, LEARN)
+        other: str | Learn = self.opponent or SCRIPTS.get(self.learners) or LEARN
         keepers = other if self.learners == "takers" else LEARN
         takers = other if self.learners == "keepers" else LEARN
-        return {
-            **dict.fromkeys(robot_names(self.n_keepers, 0), keepers),
-            **dict.fromkeys(robot_names(0, self.n_takers), takers),
-        }
+        controllers: dict[str, str | Learn] = {}
+        controllers.update(dict.fromkeys(robot_names(self.n_keepers, 0), keepers))
+        controllers.update(dict.fromkeys(robot_names(0, self.n_takers), takers))
+        return controllers
 
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
         """Place the keepers on the ring, the takers near the center, and the ball with blue_0."""

@@ -109,8 +109,9 @@ class SslPass(Ssl):
 
         def forbidden(drawn: Floats) -> Mask:
             offset = drawn[:, :, None] - frame.blue.position[:, None]
-            near: Mask = norm(offset[..., 0], offset[..., 1]) < MIN_OPPONENT_DISTANCE
-            return near.any(axis=2)
+            distance = norm(offset[..., 0], offset[..., 1])
+            near: Mask = np.less(distance, MIN_OPPONENT_DISTANCE).any(axis=2)
+            return near
 
         radii = [self.config.robot.bounding_radius] * self.n_opponents
         frame.yellow.position[:] = spawn.positions_in_box(

@@ -110,7 +110,9 @@ class Keep(Policy):
         ready &= np.abs(ego.angular_velocity) < MAX_KICK_ANGULAR_VELOCITY
         ready &= np.take_along_axis(gap, best, -1)[..., 0] > MIN_OPENNESS
         way = np.maximum(distance - self._control.mouth_distance, np.float32(0.0))
-        kick = np.where(ready, self._pass_speed.kick(way, ARRIVAL_SPEED), np.float32(0.0))
+        kick = np.where(
+            ready, self._pass_speed.kick(way, np.full_like(way, ARRIVAL_SPEED)), np.float32(0.0)
+        )
         angular_velocity = motion.angular_velocity_to(ego, to_x, to_y, MAX_ANGULAR_VELOCITY)
         v_x, v_y = self._escape(view)
         velocity = self._control.limit_acceleration(ego, v_x, v_y, angular_velocity)
@@ -126,7 +128,9 @@ class Keep(Policy):
             np.take_along_axis(part, nearest, -1)[..., 0] for part in (x, y, distance)
         )
         scale = reciprocal(distance)
-        target = self._region.clamp(position[..., 0] + x * scale, position[..., 1] + y * scale)
+        x = position[..., 0] + np.multiply(x, scale)
+        y = position[..., 1] + np.multiply(y, scale)
+        target = self._region.clamp(x, y)
         speed = np.where(distance < ESCAPE_DISTANCE, ESCAPE_SPEED, np.float32(0.0))
         return motion.velocity_to(position, *target, speed)
 
@@ -149,8 +153,8 @@ class Keep(Policy):
         near = coming & (norm(to_x, to_y) < RECEIVING_DISTANCE)
         back = np.where(near, RECEIVING_SHARE, np.float32(0.0))
         line_x, line_y = (
-            line_x + back * ball.velocity[..., 0],
-            line_y + back * ball.velocity[..., 1],
+            line_x + np.multiply(back, ball.velocity[..., 0]),
+            line_y + np.multiply(back, ball.velocity[..., 1]),
         )
         v_x, v_y = np.where(coming, line_x, v_x), np.where(coming, line_y, v_y)
         angular_velocity = motion.angular_velocity_to(ego, to_x, to_y, MAX_ANGULAR_VELOCITY)
