@@ -33,12 +33,9 @@ class Place:
     sensing: Mapping[str, Any] = field(default_factory=dict)
     """Numbers of the senses of its likeness."""
     robot: Mapping[str, Any] = field(default_factory=dict)
-    """Numbers of the robot of its likeness."""
+    """Numbers of its robots, where they differ from those of the task: wheels, place of the mouth."""
     ball: Mapping[str, Any] = field(default_factory=dict)
     """Numbers of the ball of its likeness; none for that of the task."""
-    drives_model: bool = False
-    """Whether policies drive the robot of the likeness there too: its wheels differ from those of
-    the task's, and commands are speeds of wheels."""
 
     @property
     def league(self) -> str:
@@ -46,15 +43,64 @@ class Place:
         return "vsss" if self.peer == "firasim" else "ssl"
 
 
+_ER_FORCE: Final = {
+    "name": "ssl_erforce",
+    "max_acceleration": 5.8,
+    "max_deceleration": 7.9,
+    "max_angular_acceleration": 67.0,
+    "max_angular_deceleration": 96.0,
+}
+"""Its robots, by `rsoccer identify` from a log of `benches.transfer_logs`."""
 PLACES: Final[Mapping[str, Place]] = {
-    "grsim": Place("grSim", "grsim", delay=0.04),
+    "grsim": Place(
+        "grSim",
+        "grsim",
+        delay=0.03,
+        robot={
+            "name": "ssl_generic",
+            "front_distance": 0.0805,
+            "mouth_width": 0.08,
+            "max_acceleration": 3.6,
+            "max_deceleration": 3.9,
+            "max_angular_acceleration": 49.0,
+            "max_angular_deceleration": 39.0,
+        },
+        ball={"name": "grsim"},
+    ),
     "er-force": Place(
-        "ER-Force, realism None", "ssl-simulation", delay=0.065, ports={"vision": 10020}
+        "ER-Force, realism None",
+        "ssl-simulation",
+        delay=0.05,
+        ports={"vision": 10020},
+        robot=_ER_FORCE,
+        ball={"name": "ssl_erforce"},
     ),
     "er-force-rc2021": Place(
-        "ER-Force, realism RC2021", "ssl-simulation", delay=0.065, ports={"vision": 10020}
+        "ER-Force, realism RC2021",
+        "ssl-simulation",
+        delay=0.055,
+        ports={"vision": 10020},
+        tracker={
+            "frame_rate": 66.67,
+            "ball_position_noise": 0.001,
+            "robot_position_noise": 0.0013,
+            "heading_noise": 0.01,
+        },
+        robot=_ER_FORCE,
+        ball={"name": "ssl_erforce"},
     ),
-    "firasim": Place("FIRASim", "firasim", delay=0.035),
+    "firasim": Place(
+        "FIRASim",
+        "firasim",
+        delay=0.035,
+        robot={
+            "name": "vss_440rpm",
+            "wheel_radius": 0.02,
+            "track_width": 0.085,
+            "max_wheel_speed": 59.9,
+            "longitudinal_grip": 1.26,
+        },
+    ),
 }
 """Other simulators by name."""
 
@@ -110,7 +156,7 @@ def likeness(place: Place, trial: Trial) -> tuple[Task, Sensing]:
         place: the place.
         trial: what is played.
     """
-    options: dict[str, Any] = {"robot": RobotModel(**place.robot)} if place.robot else {}
+    options = _robot(place)
     if place.ball and place.league == "ssl":
         options["ball"] = BallModel(**place.ball)
     numbers = dict(place.sensing) or {"command_delay": place.delay}
@@ -125,8 +171,12 @@ def as_played(place: Place, trial: Trial) -> tuple[Task, Sensing | None]:
         place: the place.
         trial: what is played.
     """
-    options = {"robot": RobotModel(**place.robot)} if place.drives_model else {}
-    task = make_task(trial.task, **options)
+    task = make_task(trial.task, **_robot(place))
     if trial.forecasts:
         return task, Sensing(command_delay=place.delay, forecast=1.0, **place.tracker)
     return task, Sensing(**place.tracker) if place.tracker else None
+
+
+def _robot(place: Place) -> dict[str, Any]:
+    """The option `robot` of tasks that are played in a place."""
+    return {"robot": RobotModel(**place.robot)} if place.robot else {}

@@ -151,9 +151,12 @@ class NetworkStepper(Stepper, Reader, SensingStepper, Closer):
             self.connection.stop()
 
     def _finish(self, out: Floats) -> None:
-        """Write rows with break beams as robots report them."""
-        known, contact = self.connection.contact()
-        self._rows.robots.infrared[0, known] = contact[known]
+        """Write rows in which a ball that a robot reports at its dribbler cuts the break beam.
+
+        The opposite does not hold: protocols report contact, and a beam is cut before it.
+        """
+        _, contact = self.connection.contact()
+        self._rows.robots.infrared[0, contact] = 1.0
         self.connection.frame.rows[:] = self._rows.rows
         out[:] = self._rows.rows
 
