@@ -1,9 +1,9 @@
 """Scores of the shipped policies in other simulators: `python -m benches.transfer grsim`.
 
-The simulator runs already, at its usual ports on this machine; nothing here starts one. Episodes are
-played in the time of its vision, one after the other, and kept in a file of the place, so that a run
-that was stopped goes on where it was with `--resume`. `home` and `likeness` are this package's own
-simulator: exact, and with delays and numbers like those of each place.
+The simulator runs already, at its usual ports on this machine; nothing here starts one. Episodes
+are played in the time of its vision, one after the other, and kept in a file of the place, so that
+a run that was stopped goes on where it was with `--resume`. `home` and `likeness` are this
+package's own simulator: exact, and with delays and numbers like those of each place.
 """
 
 import argparse

@@ -1,7 +1,8 @@
 """Logs of other simulators for `rsoccer identify`: `python -m benches.transfer_logs grsim log.csv`.
 
-A robot of the simulator, which runs already, follows the program of `rsoccer.identify`. The log has
-its commands when they were sent, and what cameras saw when it arrived, by the clock of this machine.
+A robot of the simulator, which runs already, follows the program of `rsoccer.identify`. The log
+has its commands when they were sent, and what cameras saw when it arrived, by the clock of this
+machine.
 """
 
 from __future__ import annotations

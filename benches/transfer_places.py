@@ -33,7 +33,7 @@ class Place:
     sensing: Mapping[str, Any] = field(default_factory=dict)
     """Numbers of the senses of its likeness."""
     robot: Mapping[str, Any] = field(default_factory=dict)
-    """Numbers of its robots, where they differ from those of the task: wheels, place of the mouth."""
+    """Numbers of its robots that differ from those of the task: wheels, place of the mouth."""
     ball: Mapping[str, Any] = field(default_factory=dict)
     """Numbers of the ball of its likeness; none for that of the task."""
 
@@ -56,6 +56,7 @@ PLACES: Final[Mapping[str, Place]] = {
         "grSim",
         "grsim",
         delay=0.03,
+        sensing={"frame_rate": 60.0, "tracker": 1.0, "command_delay": 0.03},
         robot={
             "name": "ssl_generic",
             "front_distance": 0.0805,
@@ -71,6 +72,7 @@ PLACES: Final[Mapping[str, Place]] = {
         "ER-Force, realism None",
         "ssl-simulation",
         delay=0.05,
+        sensing={"frame_rate": 66.67, "tracker": 1.0, "command_delay": 0.05},
         ports={"vision": 10020},
         robot=_ER_FORCE,
         ball={"name": "ssl_erforce"},
@@ -79,6 +81,7 @@ PLACES: Final[Mapping[str, Place]] = {
         "ER-Force, realism RC2021",
         "ssl-simulation",
         delay=0.055,
+        sensing={"name": "rc2021", "command_delay": 0.01},
         ports={"vision": 10020},
         tracker={
             "frame_rate": 66.67,
@@ -93,6 +96,7 @@ PLACES: Final[Mapping[str, Place]] = {
         "FIRASim",
         "firasim",
         delay=0.035,
+        sensing={"command_delay": 0.035},
         robot={
             "name": "vss_440rpm",
             "wheel_radius": 0.02,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import pytest
 
 from rsoccer import SimConfig
@@ -42,4 +44,4 @@ def test_robots_that_do_not_play_stand_beside_the_field_apart(name: str, field: 
     assert not any(is_on for _, _, is_on in found.values())
     assert all(abs(y) > config.field.width / 2 + 0.3 for _, y, _ in found.values())
     sides = sorted(x for x, _, _ in found.values())
-    assert all(after - before > 0.19 for before, after in zip(sides, sides[1:], strict=False))
+    assert all(after - before > 0.19 for before, after in itertools.pairwise(sides))
