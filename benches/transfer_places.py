@@ -28,7 +28,7 @@ class Place:
     """Ports that differ from those of the protocol."""
     groups: Mapping[str, str] = field(default_factory=dict)
     """Groups that differ."""
-    tracker: Mapping[str, float] = field(default_factory=dict)
+    tracker: Mapping[str, Any] = field(default_factory=dict)
     """Noise of its vision, with which the tracker counts: numbers of `Sensing`."""
     sensing: Mapping[str, Any] = field(default_factory=dict)
     """Numbers of the senses of its likeness."""
@@ -164,7 +164,7 @@ def likeness(place: Place, trial: Trial) -> tuple[Task, Sensing]:
     if place.ball and place.league == "ssl":
         options["ball"] = BallModel(**place.ball)
     numbers = dict(place.sensing) or {"command_delay": place.delay}
-    forecast = {"forecast": 1.0} if trial.forecasts else {}
+    forecast: dict[str, Any] = {"forecast": 1.0} if trial.forecasts else {}
     return make_task(trial.task, **options), Sensing(**numbers, **forecast)
 
 

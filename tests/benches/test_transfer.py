@@ -8,6 +8,7 @@ import pytest
 from benches import transfer, transfer_tables
 from benches.transfer_places import FORECAST, HOME, PLACES, TRIALS, Trial, likeness
 from rsoccer.drive.settings import PEERS
+from rsoccer.registry import make_task
 
 GO = "SSLGoToBall-v0, zero"
 
@@ -53,7 +54,7 @@ def test_results_are_kept_and_gone_on_with(
 
 def test_episodes_begin_alike_however_they_are_counted() -> None:
     trial = Trial("SSLGoToBall-v0", "fetch")
-    task = transfer.make_task(trial.task)
+    task = make_task(trial.task)
     together = transfer.play(task, trial, range(4), None)
     apart = [transfer.play(task, trial, range(n, n + 2), None) for n in (0, 2)]
     assert together[1] == apart[0][1] + apart[1][1]

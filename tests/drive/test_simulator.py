@@ -161,7 +161,7 @@ def test_contact_that_a_robot_reports_adds_to_its_break_beam() -> None:
             rows.ball.position[0] = (distance, 0.0)
             out = rows.rows.copy()
             no_report = np.array([True]), np.array([reported])
-            connection.contact = lambda report=no_report: report  # type: ignore[assignment,misc]
+            connection.contact = lambda report=no_report: report  # type: ignore[misc]
             stepper.place(np.ones(1, np.bool_), rows.rows, out)
             found = bool(Frame(out, 1, 0).robots.infrared[0, 0])
             assert found is (reported or seen), (reported, distance)
