@@ -15,7 +15,7 @@ import gymnasium
 import pettingzoo
 
 import rsoccer
-from benches import offline, scripted_ssl
+from benches import offline, scripted_ssl, transfer_tables
 from benches.learning.reporting import report as learning
 from benches.markdown import filled, table
 from rsoccer import policies
@@ -44,6 +44,7 @@ WRITTEN = (
     DOCS / "referee.md",
     DOCS / "senses.md",
     DOCS / "speed.md",
+    DOCS / "transfer.md",
     DOCS / "tutorials" / "new-task.md",
 )
 DEMO = DOCS / "demo.json"
@@ -272,6 +273,7 @@ PARTS: dict[str, Callable[[], str]] = {
     "speed_summary": summary,
     "tasks": tasks,
     "training_speed": training_speed,
+    "transfer": transfer_tables.transfer,
     "vsss_rules": referee_tables.vsss_rules,
     "vsss_scenes": referee_scenes.vsss_scenes,
     "whole_matches": whole_matches,

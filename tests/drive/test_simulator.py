@@ -20,6 +20,7 @@ from rsoccer.drive import (
     forecasting,
 )
 from rsoccer.drive.connection import Connection
+from rsoccer.drive.simulator import SETTLED
 from rsoccer.evaluate import evaluate
 from rsoccer.frame import Frame
 from rsoccer.lineup import lineup
@@ -118,6 +119,52 @@ def test_bodies_are_where_a_task_wants_them_and_others_are_gone() -> None:
         matches.frame.robots.position[0, 0], true.robots.position[0, 0], atol=0.01
     )
     assert matches.play.times is not None
+
+
+def test_robots_rest_before_they_are_put_somewhere() -> None:
+    link = ServerLink(referee="off")
+    config = SimConfig("ssl_b", 1, 0)
+    connection = connected(config, link, "ssl-simulation")
+    stepper = NetworkSimulator(connection)
+    begin = Frame.empty(1, 1, 0)
+    begin.ball.position[0] = (0.0, 2.0)
+    rows, out = begin.rows, begin.rows.copy()
+    stepper.place(np.ones(1, np.bool_), rows, out)
+    commands = np.zeros((1, 1, len(config.command_columns)), np.float32)
+    commands[..., 0] = 2.0
+    for _ in range(40):
+        stepper.step(commands, out)
+    assert np.hypot(*link.frame.robots.velocity[0, 0]) > 1.5
+    speeds: list[float] = []
+    put = connection.put
+
+    def noted(messages: Any) -> None:  # noqa: ANN401
+        speeds.append(float(np.hypot(*link.frame.robots.velocity[0, 0])))
+        put(messages)
+
+    connection.put = noted  # type: ignore[method-assign]
+    stepper.place(np.ones(1, np.bool_), rows, out)
+    assert speeds
+    assert max(speeds) < 2 * SETTLED
+
+
+def test_contact_that_a_robot_reports_adds_to_its_break_beam() -> None:
+    link = ServerLink(referee="off")
+    config = SimConfig("ssl_b", 1, 0)
+    connection = connected(config, link, "ssl-simulation")
+    stepper = NetworkSimulator(connection)
+    rows = Frame.empty(1, 1, 0)
+    model = config.robots[0]
+    beam = model.front_distance + config.ball.radius + 0.5 * 0.01  # in the beam, without contact
+    for reported in (False, True):
+        for distance, seen in ((1.0, False), (beam, True)):
+            rows.ball.position[0] = (distance, 0.0)
+            out = rows.rows.copy()
+            no_report = np.array([True]), np.array([reported])
+            connection.contact = lambda report=no_report: report  # type: ignore[misc]
+            stepper.place(np.ones(1, np.bool_), rows.rows, out)
+            found = bool(Frame(out, 1, 0).robots.infrared[0, 0])
+            assert found is (reported or seen), (reported, distance)
 
 
 def test_untouched_robots_stay() -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -20,8 +20,10 @@ from rsoccer.protocols.schemas import simulation_pb2
 
 Identity = tuple[int, int]
 """Team and uniform number on the wire."""
-OUTSIDE: Final = 2.0
-"""Distance from the side line to robots of grSim that do not play, m: it cannot take them away."""
+OUTSIDE: Final[Mapping[str, float]] = {"grsim": 2.0, "firasim": 0.5}
+"""Distance from the side line to robots that do not play, m, by the protocol. grSim and FIRASim
+turn them off, which leaves them where they are, in the way of the others."""
+_FIRST, _APART = 0.3, 0.25  # distances from the middle line and from each other, m
 
 
 class Message(NamedTuple):
@@ -105,17 +107,12 @@ class GrSim(Peer):
     ) -> list[Message]:
         """Return the messages that put all bodies; see `Peer.placement`."""
         packet = grsim.to_replacement(layout, frame)
-        field = layout.config.field
         for team, number in strangers:
-            side = 1.0 if team == YELLOW else -1.0
-            packet.replacement.robots.add(
-                x=side * (0.3 + 0.25 * number),
-                y=-(field.width / 2 + OUTSIDE),
-                dir=90.0,
-                id=number,
-                yellowteam=team == YELLOW,
-                turnon=False,
-            )
+            packet.replacement.robots.add(id=number, yellowteam=team == YELLOW, turnon=False)
+        for robot in packet.replacement.robots:
+            if not robot.turnon:
+                robot.x, robot.y = _outside(layout, "grsim", robot.yellowteam, robot.id)
+                robot.dir = 90.0
         return [Message("grsim", packet.SerializeToString())]
 
     def ball_placement(self, layout: WireLayout, frame: Frame) -> list[Message]:
@@ -174,6 +171,10 @@ class FiraSim(Peer):
         for team, number in strangers:
             robot = packet.replace.robots.add(yellowteam=team == YELLOW, turnon=False)
             robot.position.robot_id = number
+        for robot in packet.replace.robots:
+            if not robot.turnon:
+                place, number = robot.position, robot.position.robot_id
+                place.x, place.y = _outside(layout, "firasim", robot.yellowteam, number)
         return [Message("command", packet.SerializeToString())]
 
     def ball_placement(self, layout: WireLayout, frame: Frame) -> list[Message]:
@@ -181,6 +182,15 @@ class FiraSim(Peer):
         packet = fira.to_replacement(layout, frame)
         packet.replace.ClearField("robots")
         return [Message("command", packet.SerializeToString())]
+
+
+def _outside(
+    layout: WireLayout, protocol: str, is_yellow: bool, number: int
+) -> tuple[float, float]:
+    """Place beside the field of a robot that does not play, m."""
+    side = 1.0 if is_yellow else -1.0
+    distance = layout.config.field.width / 2 + OUTSIDE[protocol]
+    return side * (_FIRST + _APART * number), -distance
 
 
 def make_peer(settings: Settings) -> Peer:

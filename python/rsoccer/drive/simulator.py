@@ -25,6 +25,11 @@ FRAMES_TO_ACT: Final = 4
 """Frames that may pass before one shows bodies where they were put: 60 ms of latency."""
 FRAMES_TO_SHOW: Final = 20
 """Frames after which bodies are put again: the message may be lost."""
+SETTLED: Final = 0.1
+"""Speed up to which a robot stands, m/s: about what a tracker makes of noise."""
+SETTLING: Final = 2.0
+"""Longest time for which robots are left to stand before they are put somewhere, s: those of
+FIRASim take 1 s."""
 _BALL_SIZE: Final = len(BALL_COLUMNS)
 _ALL: Final = np.ones(1, np.bool_)
 
@@ -146,9 +151,12 @@ class NetworkStepper(Stepper, Reader, SensingStepper, Closer):
             self.connection.stop()
 
     def _finish(self, out: Floats) -> None:
-        """Write rows with break beams as robots report them."""
-        known, contact = self.connection.contact()
-        self._rows.robots.infrared[0, known] = contact[known]
+        """Write rows in which a ball that a robot reports at its dribbler cuts the break beam.
+
+        The opposite does not hold: protocols report contact, and a beam is cut before it.
+        """
+        _, contact = self.connection.contact()
+        self._rows.robots.infrared[0, contact] = 1.0
         self.connection.frame.rows[:] = self._rows.rows
         out[:] = self._rows.rows
 
@@ -227,6 +235,8 @@ class NetworkSimulator(NetworkStepper, Placer):
         connection, present = self.connection, self._rows.copy()
         wanted = Frame(np.array(rows, np.float32), present.n_blue, present.n_yellow)
         self._let_pass(1)
+        if not ball_only:
+            self._settle()
         messages = connection.placement(wanted, ball_only=ball_only)
         sight = connection.sight
         state = {"seen": -1}
@@ -249,6 +259,18 @@ class NetworkSimulator(NetworkStepper, Placer):
         connection.forget()
         self._let_pass(2)
         return self.read(out)
+
+    def _settle(self) -> None:
+        """Let robots come to rest: FIRASim's keep their velocity where they are put."""
+        sight, present = self.connection.sight, self._rows.copy()
+        until = sight.clock.now + SETTLING
+
+        def is_at_rest() -> bool:
+            sight.read(present.rows)
+            moving = np.hypot(*present.robots.velocity[0].T) > SETTLED
+            return sight.clock.now >= until or not moving.any()
+
+        self.connection.stand(is_at_rest, "frames")
 
     def _let_pass(self, frames: int) -> None:
         """Let robots stand for some frames."""
