@@ -12,7 +12,7 @@ from rsoccer.envs.env_matches import EnvMatches
 from rsoccer.matches import Matches
 from rsoccer.observation_layout import ObservationLayout
 from rsoccer.policies import Policy
-from rsoccer.policies.base import PolicyInput
+from rsoccer.policies.base import Observes, PolicyInput
 from rsoccer.registry import make_task
 from rsoccer.replay import Recorder
 
@@ -80,7 +80,7 @@ def test_given_states_hold_after_automatic_resets() -> None:
 class Seeing(Policy):
     """Observes, and drives at a constant speed."""
 
-    observes = "view"
+    observes: Observes = "view"
 
     def __init__(self, speed: float) -> None:
         super().__init__()

@@ -2,6 +2,7 @@
 
 import re
 import subprocess
+from collections import defaultdict
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -52,7 +53,7 @@ class Bench(Workshop):
         super(Workshop, self).__init__()
         self.folder, self.fails, self.compiles = folder, fails, compiles
         self.programs = [folder / "ssl", folder / "vsss"]
-        self.catchers = referee_mutants.defaultdict(list)
+        self.catchers = defaultdict(list)
         self.calls: list[tuple[str, ...]] = []
 
     def build(self, *command: str) -> list[Path] | None:

@@ -110,7 +110,7 @@ class SslPass(Ssl):
         def forbidden(drawn: Floats) -> Mask:
             offset = drawn[:, :, None] - frame.blue.position[:, None]
             distance = norm(offset[..., 0], offset[..., 1])
-            near: Mask = np.less(distance, MIN_OPPONENT_DISTANCE).any(axis=2)
+            near: Mask = np.any(np.less(distance, MIN_OPPONENT_DISTANCE), axis=2)
             return near
 
         radii = [self.config.robot.bounding_radius] * self.n_opponents
