@@ -150,7 +150,7 @@ TRIALS: Final = (
     Trial("SSLPassEndurance-v1", "best"),
     Trial("SSLPassEndurance-v1", "best", forecasts=True),
 )
-"""What is played, the first ones first."""
+"""Tasks and policies to play, in this order."""
 
 
 def likeness(place: Place, trial: Trial) -> tuple[Task, Sensing]:

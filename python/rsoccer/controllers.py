@@ -154,7 +154,7 @@ class Assignment:
 
     @property
     def reads_observations(self) -> bool:
-        """Whether a learner or a policy reads observations; scripts read the view alone."""
+        """True if a learner or a policy reads observations; scripts read the view alone."""
         if len(self.learners):
             return True
         return any(group.policy.observes == "observation" for group in self.groups)

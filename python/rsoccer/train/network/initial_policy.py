@@ -38,6 +38,9 @@ def load_for_task(name: str, task: Task, stack: ObservationStack) -> Network:
         task: the task to train on.
         stack: what the networks observe of it.
 
+    Returns:
+        The policy.
+
     Raises:
         ValueError: as `load`, or a policy of the other league.
     """
