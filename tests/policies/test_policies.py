@@ -29,9 +29,11 @@ def run(policy: Policy, n: int, steps: int, robots: int = 3, seed: int = 0) -> n
 SSL_TASKS = {
     "fetch": "SSLGoToBall-v0",
     "hold": "SSLSelfPlay-v0",
+    "keep": "SSLKeepaway-v0",
     "passer": "SSLPassEndurance-v1",
     "receive": "SSLPassEndurance-v1",
     "strike": "SSLStaticDefenders-v0",
+    "take": "SSLKeepaway-v0",
     "weave": "SSLDribbling-v0",
 }
 
