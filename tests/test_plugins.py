@@ -87,7 +87,7 @@ def test_the_list_has_entry_points_and_broken_ones(package: Path, tmp_path: Path
     done = run_in(tmp_path, "list", path=package)
     assert "Duel-v0: One robot against one that turns.\n    field=" in done.stdout
     assert "\n'Lost-v0': the entry point 'mine:Lost'" in done.stdout
-    assert ", spin, strike, uniform," in done.stdout, "text and wrong are no policies"
+    assert ", spin, strike, take, uniform," in done.stdout, "text and wrong are no policies"
     assert "\n'text': the entry point in 'rsoccer.policies' names no policy: " in done.stdout
     assert "\n'wrong': the entry point 'mine:MISSING' of mine 1.0 in" in done.stdout
 

@@ -10,7 +10,7 @@ import pytest
 from rsoccer import SimConfig
 from rsoccer.arrays import Floats, Mask
 from rsoccer.frame import BallColumns
-from rsoccer.rules import BallOut, Crossings, Passes, Restart, Rule
+from rsoccer.rules import BallOut, Crossings, Possession, Restart, Rule
 from rsoccer.task import Play
 from rsoccer.tasks import SslSelfPlay, VssSelfPlay
 from rsoccer.testing import TaskError, check_task
@@ -56,13 +56,13 @@ class FaultyBallOut(BallOut):
 class RepositionDependsOnTheBatch(SslSelfPlay):
     @property
     def rules(self) -> Sequence[Rule]:
-        return Crossings(), FaultyBallOut(self.config, "batch"), Passes(0.5)
+        return Crossings(), FaultyBallOut(self.config, "batch"), Possession(0.5)
 
 
 class RepositionsIntoARobot(SslSelfPlay):
     @property
     def rules(self) -> Sequence[Rule]:
-        return Crossings(), FaultyBallOut(self.config, "robot"), Passes(0.5)
+        return Crossings(), FaultyBallOut(self.config, "robot"), Possession(0.5)
 
 
 class KeepsTheLastRows(Rule):

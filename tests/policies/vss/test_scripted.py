@@ -266,7 +266,7 @@ def test_a_name_may_carry_a_skill() -> None:
     assert same(actions[0], actions[1])
     assert not same(actions[0], actions[2])
     assert "scripted" in policies.list_policies()
-    assert policies.list_policies_with_skill() == ["scripted"]
+    assert policies.list_policies_with_skill() == ["scripted", "take"]
 
 
 @pytest.mark.parametrize("skill", ["2", "-0.1", "x", "", "nan", "0.5:1"])
