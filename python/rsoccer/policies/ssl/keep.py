@@ -10,8 +10,12 @@ from rsoccer.policies.geometry import team_from_ball
 from rsoccer.policies.ssl import motion
 from rsoccer.policies.ssl.approach import approach_ball
 from rsoccer.policies.ssl.interception import point_on_ball_line
-from rsoccer.policies.ssl.pass_lines import PassSpeed, openness, opponent_positions
-from rsoccer.policies.ssl.path_planning import other_robots
+from rsoccer.policies.ssl.pass_lines import PassSpeed, openness
+from rsoccer.policies.ssl.path_planning import (
+    opponent_positions,
+    other_robots,
+    teammate_positions,
+)
 from rsoccer.policies.ssl.region import Region
 from rsoccer.policies.ssl.robot_control import RobotControl, require_ssl
 from rsoccer.rng import WorldRng
@@ -88,7 +92,7 @@ class Keep(Policy):
     def _pass(self, view: View) -> Floats:
         """Turn to the most open teammate, and kick."""
         ego, ball, teammates = view.ego, view.ball.position, view.teammates
-        teammate_x, teammate_y = _teammates(view)
+        teammate_x, teammate_y = teammate_positions(view)
         lead_x, lead_y = (teammates.velocity[..., i] * LEAD_SECONDS for i in (0, 1))
         end = self._region.clamp(teammate_x + lead_x, teammate_y + lead_y)
         end = np.where(teammate_x < FAR, end[0], FAR), np.where(teammate_x < FAR, end[1], FAR)
@@ -170,7 +174,7 @@ class Keep(Policy):
         value = np.minimum(openness(start, end, opponent_positions(view)), OPEN_ENOUGH)
         length = norm(end[0] - start[0], end[1] - start[1])
         value = value - np.float32(0.3) * np.abs(length - PREFERRED_PASS)
-        teammate_x, teammate_y = _teammates(view)
+        teammate_x, teammate_y = teammate_positions(view)
         gap = norm(
             end[0][..., None] - teammate_x[:, :, None], end[1][..., None] - teammate_y[:, :, None]
         )
@@ -219,10 +223,3 @@ def _is_aimed_at(view: View) -> Mask:
     faces = ahead > AIMED_COSINE * norm(x, y)
     aimed: Mask = np.any(faces & (teammates.infrared > 0.5), axis=-1)
     return aimed
-
-
-def _teammates(view: View) -> XY:
-    """Positions (m) of the teammates, (n, robots, teammates); far away if absent."""
-    position, present = view.teammates.position, view.teammates.absent == 0.0
-    x, y = (np.where(present, position[..., i], FAR) for i in (0, 1))
-    return x, y

@@ -8,8 +8,7 @@ from rsoccer._core import BallModel
 from rsoccer.arrays import Floats
 from rsoccer.policies.rolling import RollingLaw
 from rsoccer.policies.ssl.path_planning import segment_distance
-from rsoccer.vectors import FAR, XY, norm
-from rsoccer.view import View
+from rsoccer.vectors import XY, norm
 
 REACH_PER_METER: Final = np.float32(0.4)
 """Distance that an opponent covers while a pass goes a meter, m."""
@@ -37,21 +36,6 @@ class PassSpeed:
             arrival: speed on arrival, m/s.
         """
         return self._rolling.kick_speed(distance, arrival, self._ratio, self._slides)
-
-
-def opponent_positions(view: View) -> XY:
-    """Return the positions of opponents, (n, robots, opponents).
-
-    Empty slots and absent robots are far away; without slots there is one far away.
-
-    Args:
-        view: view of the robots.
-    """
-    present, position = view.opponents.absent == 0.0, view.opponents.position
-    x, y = (np.where(present, position[..., i], FAR) for i in (0, 1))
-    if not x.shape[2]:
-        x = y = np.full((*x.shape[:2], 1), FAR, np.float32)
-    return x, y
 
 
 def openness(start: XY, end: XY, opponents: XY) -> Floats:

@@ -7,12 +7,14 @@ import numpy as np
 from rsoccer.arrays import Floats
 from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
 from rsoccer.policies.ssl import motion
+from rsoccer.policies.ssl.interception import point_on_ball_line
 from rsoccer.policies.ssl.pass_lines import PassSpeed
+from rsoccer.policies.ssl.path_planning import teammate_positions
 from rsoccer.policies.ssl.region import Region
 from rsoccer.policies.ssl.robot_control import RobotControl, require_ssl
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
-from rsoccer.vectors import FAR, XY, norm, reciprocal, rotate_into
+from rsoccer.vectors import XY, norm, reciprocal
 from rsoccer.view import View
 
 ARRIVAL_SPEED: Final = np.float32(1.8)  # m/s of a pass on arrival: the dribbler stops it
@@ -91,15 +93,9 @@ class Passer(Policy):
 
     def _receiving_velocity(self, view: View) -> XY:
         """Velocity (m/s) onto the line of a coming ball, or away from a teammate too near."""
-        position, ball = view.ego.position, view.ball
+        position = view.ego.position
         other_x, other_y = _teammate(view)
-        speed = norm(ball.velocity[..., 0], ball.velocity[..., 1])
-        scale = reciprocal(speed, MIN_BALL_SPEED)
-        u_x, u_y = ball.velocity[..., 0] * scale, ball.velocity[..., 1] * scale
-        from_x, from_y = (position[..., i] - ball.position[..., i] for i in (0, 1))
-        ahead, left = rotate_into(from_x, from_y, u_x, u_y)
-        coming = (speed > MIN_BALL_SPEED) & (ahead > 0.0)
-        x, y = position[..., 0] + left * u_y, position[..., 1] - left * u_x
+        coming, x, y = point_on_ball_line(view, MIN_BALL_SPEED)
         line_x, line_y = motion.velocity_to(position, x, y, MAX_SPEED)
         away_x, away_y = position[..., 0] - other_x, position[..., 1] - other_y
         distance = norm(away_x, away_y)
@@ -116,6 +112,5 @@ class Passer(Policy):
 
 def _teammate(view: View) -> XY:
     """Position (m) of the teammate, (n, robots) each; far away if it is absent."""
-    position, present = view.teammates.position[:, :, 0], view.teammates.absent[:, :, 0] == 0.0
-    x, y = (np.where(present, position[..., i], FAR) for i in (0, 1))
-    return x, y
+    x, y = teammate_positions(view)
+    return x[..., 0], y[..., 0]

@@ -28,20 +28,39 @@ class Obstacles(NamedTuple):
     """Distance to keep from the center, m."""
 
 
-def other_robots(view: View) -> XY:
-    """Return the positions of all other robots, (n, robots, others).
+def other_robots(view: View, which: slice = slice(None)) -> XY:
+    """Return the positions of other robots, (n, robots, others).
 
-    Empty slots and absent robots are far away.
+    Empty slots and absent robots are far away; without slots there is one far away.
 
     Args:
         view: view of the robots.
+        which: slots of the other robots, those of teammates first; default: all.
     """
-    present = view.present[:, :, 1:]
-    position = view.robots.position[:, :, 1:]
+    present = view.present[:, :, 1:][:, :, which]
+    position = view.robots.position[:, :, 1:][:, :, which]
     x, y = np.where(present, position[..., 0], FAR), np.where(present, position[..., 1], FAR)
     if not x.shape[2]:
         x = y = np.full((*x.shape[:2], 1), FAR, np.float32)
     return x, y
+
+
+def teammate_positions(view: View) -> XY:
+    """Return the positions of teammates, (n, robots, teammates); see `other_robots`.
+
+    Args:
+        view: view of the robots.
+    """
+    return other_robots(view, slice(view.n_teammates))
+
+
+def opponent_positions(view: View) -> XY:
+    """Return the positions of opponents, (n, robots, opponents); see `other_robots`.
+
+    Args:
+        view: view of the robots.
+    """
+    return other_robots(view, slice(view.n_teammates, None))
 
 
 def segment_distance(start: XY, end: XY, x: Floats, y: Floats) -> Floats:

@@ -10,8 +10,7 @@ from rsoccer.policies.geometry import team_from_ball
 from rsoccer.policies.ssl import motion
 from rsoccer.policies.ssl.approach import approach_ball
 from rsoccer.policies.ssl.interception import point_on_ball_line
-from rsoccer.policies.ssl.pass_lines import opponent_positions
-from rsoccer.policies.ssl.path_planning import other_robots
+from rsoccer.policies.ssl.path_planning import opponent_positions, other_robots
 from rsoccer.policies.ssl.region import Region
 from rsoccer.policies.ssl.robot_control import RobotControl, require_ssl
 from rsoccer.rng import WorldRng

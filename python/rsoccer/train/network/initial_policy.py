@@ -52,6 +52,7 @@ def load_for_task(name: str, task: Task, stack: ObservationStack) -> Network:
         policy = Network.load(trained[name] if is_other else name)
         if policy.metadata.get("layout") != task.layout.text:
             policy = fitted(policy, task)
+        policy.check_fits(task, task.layout.size)
     except ValueError as error:
         raise ValueError(f"network.initial_policy: {error}") from error
     return _checked(policy, name, task, stack, "network.initial_policy")
@@ -101,7 +102,6 @@ def _checked(
             f"{argument}: expected a policy with at most the run's history of {stack.history}, got "
             f"one of {policy.history}"
         )
-    policy.check_fits(task, task.layout.size)
     return policy
 
 
