@@ -88,10 +88,10 @@ check-libraries: $(LIBRARIES)/made ## run the tests with Stable-Baselines3, Supe
 check-rllib: $(RLLIB)/made ## run the tests with RLlib and the Gymnasium that Ray pins, in an environment of their own
 	$(RLLIB)/bin/python $(STRICT) tests/wrappers/test_rllib*.py tests/test_docstrings.py '$(OF_LIBRARY)[ray]'
 
-# Old versions warn of newer ones of what they import.
+# Old versions warn of newer ones of what they import. The README's tables come from benches, which need more libraries.
 check-lowest: $(LOWEST)/made ## run tests with the lowest versions of all dependencies but torch (TORCH=1: of torch too)
 	$(LOWEST)/bin/python -m pytest -W ignore::DeprecationWarning --numprocesses auto \
-		$(if $(TORCH),tests --ignore=tests/benches --ignore=tests/tools --ignore=tests/wrappers,$(BY_VERSION))
+		$(if $(TORCH),tests --ignore=tests/benches --ignore=tests/tools --ignore=tests/wrappers --ignore=tests/test_readme.py,$(BY_VERSION))
 
 check-recipes: $(RECIPES)/benchmarl/made $(RECIPES)/pufferlib/made $(RECIPES)/tianshou/made ## run the recipes for libraries that need other versions, each in an environment of its own
 	$(RECIPES)/benchmarl/bin/python -m pytest tests/wrappers/test_recipes.py -k benchmarl

@@ -10,7 +10,7 @@ import argparse
 import tomllib
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Final
+from typing import Final, NamedTuple
 
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
@@ -24,7 +24,24 @@ TESTING: Final = ("cloudpickle", "hypothesis", "pytest", "pytest-xdist")
 """Packages that the tests need; their versions are those of constraints.txt."""
 
 
-def lowest_versions(requirements: Iterable[str]) -> dict[str, Version]:
+class Lowest(NamedTuple):
+    """Requirement of a package in its lowest version."""
+
+    version: Version
+    extras: frozenset[str] = frozenset()
+    """Extras of the package."""
+
+    def of(self, name: str) -> str:
+        """Return the requirement as pip reads it.
+
+        Args:
+            name: name of the package.
+        """
+        extras = f"[{','.join(sorted(self.extras))}]" if self.extras else ""
+        return f"{name}{extras}=={self.version}"
+
+
+def lowest_versions(requirements: Iterable[str]) -> dict[str, Lowest]:
     """Return the lowest version of each package that these requirements allow here.
 
     Args:
@@ -32,12 +49,12 @@ def lowest_versions(requirements: Iterable[str]) -> dict[str, Version]:
             itself, which name its extras, are left out.
 
     Returns:
-        Versions by canonical name.
+        Versions and extras by canonical name.
 
     Raises:
         ValueError: a requirement without a lower bound.
     """
-    lowest: dict[str, Version] = {}
+    lowest: dict[str, Lowest] = {}
     for text in requirements:
         requirement = Requirement(text)
         if requirement.name == "rsoccer" or not (
@@ -48,7 +65,11 @@ def lowest_versions(requirements: Iterable[str]) -> dict[str, Version]:
         bounds = [Version(part.version) for part in requirement.specifier if part.operator == ">="]
         if not bounds:
             raise ValueError(f"pyproject.toml: expected a lower bound (>=), got {text!r}")
-        lowest[name] = max([*bounds, *([lowest[name]] if name in lowest else [])])
+        extras = frozenset(requirement.extras)
+        if name in lowest:
+            bounds.append(lowest[name].version)
+            extras |= lowest[name].extras
+        lowest[name] = Lowest(max(bounds), extras)
     return lowest
 
 
@@ -84,7 +105,7 @@ def main(arguments: list[str] | None = None) -> None:
     others = pins((ROOT / "constraints.txt").read_text(), (*lowest, *PINNED_BY_TORCH))
     if not options.torch:
         del lowest["torch"]
-    exact = [f"{name}=={version}" for name, version in lowest.items()]
+    exact = [requirement.of(name) for name, requirement in lowest.items()]
     (options.folder / "lowest.txt").write_text("\n".join([*exact, *TESTING, ""]))
     (options.folder / "others.txt").write_text("\n".join([*others, ""]))
 

@@ -4,7 +4,7 @@ from pathlib import Path
 import pytest
 from packaging.version import Version
 
-from tools.lowest_versions import declared, lowest_versions, main, pins
+from tools.lowest_versions import Lowest, declared, lowest_versions, main, pins
 
 
 def test_the_lowest_version_is_that_of_the_bound_for_this_python() -> None:
@@ -15,7 +15,16 @@ def test_the_lowest_version_is_that_of_the_bound_for_this_python() -> None:
         "rsoccer[render,train]",
         "scipy<2,>=1.13",
     ]
-    assert lowest_versions(requirements) == {"numpy": Version("2.1"), "scipy": Version("1.13")}
+    found = {
+        name: requirement.version for name, requirement in lowest_versions(requirements).items()
+    }
+    assert found == {"numpy": Version("2.1"), "scipy": Version("1.13")}
+
+
+def test_extras_of_dependencies_stay() -> None:
+    found = lowest_versions(["minari[hdf5,arrow]>=0.5", "minari>=0.5.3"])
+    assert found["minari"].of("minari") == "minari[arrow,hdf5]==0.5.3"
+    assert Lowest(Version("1.26")).of("numpy") == "numpy==1.26"
 
 
 def test_every_dependency_has_a_lower_bound() -> None:

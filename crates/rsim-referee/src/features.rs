@@ -9,7 +9,7 @@ use crate::team::Team;
 use crate::vector::Vector;
 
 /// Names of the numbers that a robot observes. "Own" and "opponents'" are those of its team.
-pub const FEATURES: [&str; 27] = [
+pub const FEATURES: [&str; 29] = [
     // What play is in, one of these is 1.
     "halt",
     "stop",
@@ -33,6 +33,10 @@ pub const FEATURES: [&str; 27] = [
     "next_free_ball",
     // Whether the robot may touch the ball, 0 or 1.
     "may_touch",
+    // Whether the robot is the keeper of its team, 0 or 1.
+    "keeper",
+    // Way that the robot has dribbled the ball, as a share of what the rules allow.
+    "dribbled",
     // Time until something has to happen, in units of 10 s.
     "time_to_act",
     // Place where the ball has to be, relative to the robot, in half lengths of the field; 0 in play.
@@ -67,6 +71,8 @@ pub struct Features<'a> {
     robots: [f32; 2],
     /// Half the distance between the goal lines, m.
     half_length: f32,
+    /// Way that a robot may dribble, m; 0 for any.
+    dribble_distance: f32,
 }
 
 impl Referee {
@@ -88,6 +94,7 @@ impl Referee {
             robots: Team::BOTH
                 .map(|team| share(sight.count(team), self.layout().team_size(team).max(1))),
             half_length: self.pitch().lines.half_length,
+            dribble_distance: self.config().dribble_distance,
         })
     }
 
@@ -137,6 +144,8 @@ impl Features<'_> {
         let lead = game.score[team] - game.score[team.opponent()];
         out[MAY_TOUCH..].copy_from_slice(&[
             if game.robot_may_touch(robot, team) { 1.0 } else { 0.0 },
+            if robot == self.sight.first_of(team) { 1.0 } else { 0.0 },
+            self.share_dribbled(robot),
             self.seconds_to_act / ACTION_SECONDS,
             place.x,
             place.y,
@@ -145,6 +154,15 @@ impl Features<'_> {
             self.robots[team.index()],
             self.robots[team.opponent().index()],
         ]);
+    }
+
+    /// Way that the robot has dribbled, as a share of the allowed one; 0 out of play and without such a rule.
+    fn share_dribbled(&self, robot: usize) -> f32 {
+        if self.game.in_play && self.game.dribbler == Some(robot) && self.dribble_distance > 0.0 {
+            self.sight.ball().position.distance(self.game.dribble_start) / self.dribble_distance
+        } else {
+            0.0
+        }
     }
 
     /// Offset from the robot to the place of the next kick, in the coordinates of its team.

@@ -40,10 +40,12 @@ class Match(Soccer):
     as the rules say; a goal pays, and play goes on. The end of the match is a termination.
 
     The observation has two more blocks than `Soccer`: `presence`, since robots are taken out for
-    cards, and `game` (27 numbers): what play is in from the side of the robot's team, what a stop
-    waits for, whether the robot may touch the ball, the time to act (10 s), the place of the next
-    kick relative to the robot (half lengths of the field), the score difference (5 goals), the
-    share of the half that is left, and the shares of both teams' robots that are on the field.
+    cards, and `game` (29 numbers): what play is in from the side of the robot's team, what a stop
+    waits for, whether the robot may touch the ball, whether it is its team's keeper (the first
+    robot), the way that it has dribbled (what the rules allow), the time to act (10 s), the place
+    of the next kick relative to the robot (half lengths of the field), the score difference (5
+    goals), the share of the half that is left, and the shares of both teams' robots that are on
+    the field.
     `rsoccer._core.GAME_FEATURES` names all numbers.
 
     Goal of the task: score more goals than the other team, in the goal at +x (blue) or -x (yellow).

@@ -191,6 +191,32 @@ fn the_place_of_the_next_kick_is_relative_to_the_robot_and_turned_to_its_side() 
 }
 
 #[test]
+fn the_first_robot_of_a_team_is_its_keeper() {
+    for scene in views(B) {
+        for side in [Us, Them] {
+            for (robot, expected) in [(0, 1.0), (1, 0.0), (5, 0.0)] {
+                expect_number(&scene, (side, robot), "keeper", expected);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_way_that_a_robot_has_dribbled_is_a_share_of_a_meter() {
+    for mut scene in views(B) {
+        scene.game.in_play = true;
+        scene.game.dribbler = Some(scene.index((Us, 1)));
+        scene.ball(0.5, -0.3);
+        scene.game.dribble_start = scene.sight().ball().position;
+        scene.ball(0.5, 0.1);
+        expect_number(&scene, (Us, 1), "dribbled", 0.4);
+        expect_number(&scene, (Us, 2), "dribbled", 0.0);
+        scene.game.in_play = false;
+        expect_number(&scene, (Us, 1), "dribbled", 0.0);
+    }
+}
+
+#[test]
 fn the_difference_of_goals_is_in_units_of_five() {
     for mut scene in views(B) {
         for (us, them, expected) in [(2, 1, 0.2), (1, 4, -0.6), (9, 0, 1.0), (0, 9, -1.0)] {
