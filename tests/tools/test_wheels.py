@@ -1,4 +1,6 @@
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -39,3 +41,13 @@ def test_the_release_builds_a_wheel_of_each_architecture_for_the_same_platform()
         assert targets[build.target(architecture)] == platform
     systems = {target.split("-", 1)[1] for target in targets}
     assert systems == {"unknown-linux-gnu", "apple-darwin", "pc-windows-msvc"}
+
+
+def test_maturin_is_that_of_the_environment_whatever_path_says(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setenv("PATH", "")
+    program = build.maturin_program()
+    assert program.parent == Path(sys.executable).parent
+    ran = subprocess.run([program, "--version"], capture_output=True, text=True, check=True)
+    assert ran.stdout.startswith("maturin ")

@@ -11,6 +11,7 @@ import argparse
 import os
 import subprocess
 import sys
+from importlib.metadata import files
 from pathlib import Path
 from typing import Final
 
@@ -84,10 +85,25 @@ def megabytes(path: Path) -> float:
     return path.stat().st_size / 1e6
 
 
+def maturin_program() -> Path:
+    """Return the program of the package maturin that this environment sees.
+
+    Another one may come first in PATH: that of pyenv hides this environment's Python, and so zig.
+
+    Raises:
+        RuntimeError: the package has no program.
+    """
+    for file in files("maturin") or []:
+        if file.name in ("maturin", "maturin.exe") and file.parent.name in ("bin", "Scripts"):
+            return Path(str(file.locate())).resolve()
+    raise RuntimeError("expected a program in the package maturin, found none")
+
+
 def _maturin(*arguments: str) -> None:
-    """Run maturin of this environment, whose folder has zig, too."""
+    """Run maturin with the Python and the zig of this environment."""
     path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
-    subprocess.run(["maturin", *arguments], check=True, cwd=ROOT, env={**os.environ, "PATH": path})
+    command = [str(maturin_program()), *arguments]
+    subprocess.run(command, check=True, cwd=ROOT, env={**os.environ, "PATH": path})
 
 
 def main(arguments: list[str] | None = None) -> int:
