@@ -97,7 +97,7 @@ BLOCKS: Final[dict[str, tuple[Part, ...] | str]] = {
     ),
     "possession": (
         Part(1, "time for which the takers have had the ball", "`taking_seconds`"),
-        Part(1, "time for which the keeper with the ball has had it", "`holding_seconds`"),
+        Part(1, "time since the last pass", "`pass_seconds`"),
     ),
     "gate": (
         Part(2, "offset of the next gate's middle, forward and left", LENGTH),

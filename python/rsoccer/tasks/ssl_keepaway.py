@@ -11,16 +11,14 @@ from rsoccer import checks, rewards, spawn
 from rsoccer._core import Field
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.frame import Frame, robot_names
-from rsoccer.game import BLUE, NOBODY, YELLOW, EventKind
+from rsoccer.game import BLUE, YELLOW, EventKind
 from rsoccer.markers import Area, Marker
 from rsoccer.reflection import Reflection, Symmetry
 from rsoccer.rng import WorldRng
 from rsoccer.rules import Crossings, Possession, Rule
-from rsoccer.rules.passes import REACH
 from rsoccer.task import LEARN, Learn, Play
 from rsoccer.tasks import options
 from rsoccer.tasks.ssl import Ssl, ball_at_mouth
-from rsoccer.vectors import norm
 
 MIN_PASS_LENGTH: Final = 0.5
 """Least length of a pass, m: more than two robots side by side."""
@@ -55,8 +53,8 @@ class SslKeepaway(Ssl):
     the mouth of blue_0; the takers at random positions near the center, with random headings.
 
     The observation has one more block than `Soccer`, `possession` (2 numbers): the share of
-    `taking_seconds` for which the takers have had the ball, and the share of `holding_seconds` for
-    which the keeper with the ball has had it.
+    `taking_seconds` for which the takers have had the ball, and the share of `pass_seconds` that
+    has gone by without a pass.
 
     Reward terms, unweighted:
 
@@ -74,17 +72,18 @@ class SslKeepaway(Ssl):
 
     Termination: the takers have the ball, that is, it interrupts the break beam of takers for
     `taking_seconds` in a row, also if a keeper has it in its mouth, too; the ball is outside the
-    area; or a keeper has had the ball within 0.25 m for more than `holding_seconds`. Truncation:
-    after `max_steps`.
+    area; or no pass of the keepers has arrived for more than `pass_seconds`. Truncation: after
+    `max_steps`.
 
     Metrics: `possession`, time for which the keepers kept the ball, s; `passes`, passes of the
     keepers over at least 0.5 m that arrived; `interceptions`, passes that a taker caught; `taken`,
-    1 if the takers got the ball; `left_area`, 1 if it left the area; `held_too_long`, 1 if a keeper
-    held it too long; `lost`, 1 if any of these ended the episode.
+    1 if the takers got the ball; `left_area`, 1 if it left the area; `no_pass`, 1 if no pass
+    arrived in time; `lost`, 1 if any of these ended the episode.
 
     Source: P. Stone, R. S. Sutton and G. Kuhlmann, "Reinforcement Learning for RoboCup Soccer
     Keepaway" (2005), for the game and its sizes, 3 keepers against 2 takers and 4 against 3; here
-    with the robots and the ball of the SSL, and a limit to holding instead of a stronger tackle.
+    with the robots and the ball of the SSL. A keeper with a dribbler outruns the takers, so that
+    the limit to the time without a pass is what makes a team of it.
 
     Raises:
         TypeError: an option of a wrong type.
@@ -109,8 +108,9 @@ class SslKeepaway(Ssl):
     for the script of its part, "take" or "keep"."""
     taking_seconds: float = 0.25
     """Time in a row for which takers must have the ball, s, above 0 to 10."""
-    holding_seconds: float = 4.0
-    """Longest time for which a keeper may have the ball, s, above 0 to 1000."""
+    pass_seconds: float = 4.0
+    """Longest time in which no pass arrives, from the beginning and from each pass on, s, above 0
+    to 1000."""
     max_steps: int = 2400
     """Control steps of 25 ms until truncation, at least 1; 2400 are 60 s."""
 
@@ -136,7 +136,7 @@ class SslKeepaway(Ssl):
         if self.opponent is not None:
             options.set_policies(self, "opponent")
         checks.number_in_range("taking_seconds", self.taking_seconds, 1e-3, 10.0)
-        checks.number_in_range("holding_seconds", self.holding_seconds, 1e-3, 1000.0)
+        checks.number_in_range("pass_seconds", self.pass_seconds, 1e-3, 1000.0)
         super().__post_init__()
         if self.learners == "takers":
             object.__setattr__(self, "success", "lost")
@@ -202,19 +202,15 @@ class SslKeepaway(Ssl):
     def new_memory(self, n: int) -> dict[str, Array]:
         """Create the state of possession.
 
-        `holder` (n,) is the index of the keeper with the ball, or -1; `held` (n,) the steps for
-        which it has had it, `taken` (n,) those for which takers have it.
+        `since_pass` (n,) are the steps since the last pass, or the beginning; `taken` (n,) those
+        for which takers have had the ball.
         """
-        return {
-            "holder": np.full(n, NOBODY, np.int64),
-            "held": np.zeros(n, np.int64),
-            "taken": np.zeros(n, np.int64),
-        }
+        return {"since_pass": np.zeros(n, np.int64), "taken": np.zeros(n, np.int64)}
 
     def frame_to_observations(self, play: Play) -> dict[str, Floats]:
         """Compute the blocks of `Soccer` and the block `possession`, each (n, observers, ...)."""
-        held, taken = play.memory["held"], play.memory["taken"]
-        shares = np.stack([taken / self._taking_steps, held / self._holding_steps], axis=-1)
+        waited, taken = play.memory["since_pass"], play.memory["taken"]
+        shares = np.stack([taken / self._taking_steps, waited / self._pass_steps], axis=-1)
         shape = (len(play.frame), len(play.observers), 2)
         possession = np.broadcast_to(shares[:, None].astype(np.float32), shape)
         return super().frame_to_observations(play) | {"possession": possession}
@@ -274,9 +270,9 @@ class SslKeepaway(Ssl):
         return max(1, round(self.taking_seconds / self.config.time_step))
 
     @cached_property
-    def _holding_steps(self) -> int:
-        """Control steps for which a keeper may have the ball."""
-        return max(1, round(self.holding_seconds / self.config.time_step))
+    def _pass_steps(self) -> int:
+        """Control steps in which a pass has to arrive."""
+        return max(1, round(self.pass_seconds / self.config.time_step))
 
     def _losses(self, play: Play) -> dict[str, Mask]:
         """(n,) whether the keepers have lost the ball, by the way in which they did."""
@@ -284,17 +280,13 @@ class SslKeepaway(Ssl):
         return {
             "taken": play.memory["taken"] >= self._taking_steps,
             "left_area": np.logical_or(outside[:, 0], outside[:, 1]),
-            "held_too_long": play.memory["held"] > self._holding_steps,
+            "no_pass": play.memory["since_pass"] > self._pass_steps,
         }
 
     def _update_possession(self, play: Play) -> None:
-        """Count the steps for which the keeper with the ball, and the takers, have had it."""
-        frame, memory = play.frame, play.memory
-        last = frame.ball.last_touch.astype(np.int64)
-        offset = frame.ball.position - frame.robots.position[np.arange(len(last)), last]
-        holds = (last >= 0) & (last < self.n_keepers) & (norm(offset[:, 0], offset[:, 1]) < REACH)
-        goes_on = holds & (last == memory["holder"])
-        memory["held"][:] = np.where(holds, np.where(goes_on, memory["held"] + 1, 1), 0)
-        memory["holder"][:] = np.where(holds, last, NOBODY)
-        takes = np.any(frame.yellow.infrared > 0.5, axis=1)
+        """Count the steps without a pass, and those for which the takers have had the ball."""
+        memory = play.memory
+        passed = play.events.by_team(EventKind.PASS)[:, BLUE] > 0
+        memory["since_pass"][:] = np.where(passed, 0, memory["since_pass"] + 1)
+        takes = np.any(play.frame.yellow.infrared > 0.5, axis=1)
         memory["taken"][:] = np.where(takes, memory["taken"] + 1, 0)
