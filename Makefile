@@ -109,7 +109,9 @@ wheels: $(WHEELS)/made ## build the source distribution and wheels (ARCHITECTURE
 
 # The same bits on another architecture, emulated. CONTRIBUTING.md lists the packages that it needs.
 check-aarch64: export CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER := aarch64-linux-gnu-gcc
-check-aarch64: export CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_RUNNER := qemu-aarch64 -L /usr/aarch64-linux-gnu
+# With libc6:arm64 installed, too, its libc would meet the loader of the cross compiler, another version.
+check-aarch64: export CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_RUNNER := qemu-aarch64 -L /usr/aarch64-linux-gnu \
+	-E LD_LIBRARY_PATH=/usr/aarch64-linux-gnu/lib
 check-aarch64: ## run the golden hashes and the determinism tests of the physics on an emulated ARM processor (some minutes)
 	for engine in compact rapier; do \
 		RSIM_TEST_ENGINE=$$engine $(CARGO) test --locked --target aarch64-unknown-linux-gnu --target-dir target/aarch64 \
