@@ -6,6 +6,7 @@ import subprocess
 import sys
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -72,6 +73,20 @@ def test_the_mode_may_follow(folder: Path) -> None:
     expected = r"best: expected one of \('sample', 'mean', 'robust'\).*'0.5'"
     with pytest.raises(ValueError, match=expected):
         policies.make_policy("best:0.5", task)
+
+
+@pytest.mark.parametrize("options", [{}, {"n_blue": 5, "n_yellow": 5, "field": "vss_5v5"}])
+def test_best_plays_whole_matches_with_the_skills_of_another_task(options: dict[str, Any]) -> None:
+    task = rsoccer.make_task("VSSMatch-v0", half_seconds=5.0, **options)
+    assert task.name not in trained.list_trained()
+    found = rsoccer.evaluate("best:mean", "zero", 20, task=task, threads=1)
+    assert found.wins > 4
+    assert found.losses == 0
+    policy = policies.make_policy("best:mean", task)
+    assert isinstance(policy, Network)
+    assert (policy.mode, policy.observation_size) == ("mean", task.layout.size)
+    with pytest.raises(ValueError, match="expected a task with a robust policy, got VSSMatch-v0"):
+        policies.make_policy("best:robust", task)
 
 
 def test_the_error_names_the_tasks_that_have_a_policy(folder: Path) -> None:

@@ -153,6 +153,8 @@ TASK_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
         "samples": 20 * M,
         "network.action_std": 0.3,
         "network.initial_action": _KEEP_BALL,
+        # A keeper alone has nobody to pass to, and takers that move at random teach it nothing.
+        "opponents.solo_fraction": 0.0,
         # The robots of a team see the same ball, and are rewarded alike.
         "network.central_critic": True,
         "ppo.n_minibatches": 16,

@@ -18,11 +18,11 @@ from rsoccer.history import ObservationStack
 from rsoccer.policies import make_policy
 from rsoccer.policies.base import Policy
 from rsoccer.policies.network import Network
+from rsoccer.policies.other_task import fitted
 from rsoccer.policies.policy_file import SUFFIX
 from rsoccer.policies.trained import list_trained
 from rsoccer.task import Task
 from rsoccer.train.network.actor_critic import ActorCritic
-from rsoccer.train.network.other_task import fitted
 
 ROWS: Final = 1_000_000
 """Observations that the policy's normalization counts for in the running one. With few of them the

@@ -1,9 +1,9 @@
-"""Policies of other tasks as the beginning of a run: from skills to matches.
+"""Policies in tasks that they were not trained on: from skills to matches.
 
 A robot that plays a whole match needs what it has learned in single attacks. Observations of tasks
 of a league have the same blocks, and some have more of them, or more robots in a block. A policy
-takes its weights along by the names of blocks; numbers that it does not know begin with weights of
-0, so at first the run plays as the policy does.
+takes its weights along by the names of blocks, and numbers that it does not know get weights of 0.
+A run of the trainer may begin with it, and `best` plays a match with it.
 """
 
 from __future__ import annotations
@@ -32,7 +32,10 @@ def fitted(policy: Network, task: Task) -> Network:
 
     Args:
         policy: a policy of another task of the league, without a history.
-        task: the task to train on.
+        task: the task to play or to train on.
+
+    Returns:
+        The policy for the task, in the same mode.
 
     Raises:
         ValueError: a policy of the other league, with a history, or with an action that is longer
@@ -64,7 +67,7 @@ def fitted(policy: Network, task: Task) -> Network:
     more = task.action_size - policy.action_size
     last, last_bias = np.pad(last, ((0, more), (0, 0))), np.pad(last_bias, (0, more))
     deviation = policy.action_std
-    return Network.from_layers(
+    network = Network.from_layers(
         task,
         [(first, bias), *hidden, (last, last_bias)],
         None if deviation is None else np.pad(deviation, (0, more), mode="edge"),
@@ -74,6 +77,8 @@ def fitted(policy: Network, task: Task) -> Network:
         std=std,
         clip=float(policy.clip),
     )
+    network.mode = policy.mode
+    return network
 
 
 def _common_columns(old: ObservationLayout, new: ObservationLayout) -> tuple[Array, Array]:

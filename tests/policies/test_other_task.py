@@ -1,4 +1,4 @@
-"""Policies of other tasks as the beginning of a run."""
+"""Policies in tasks that they were not trained on."""
 
 from pathlib import Path
 from typing import Any
@@ -11,9 +11,9 @@ from rsoccer.arrays import Array, Floats
 from rsoccer.history import ObservationStack
 from rsoccer.policies import make_policy
 from rsoccer.policies.network import Network
+from rsoccer.policies.other_task import fitted
 from rsoccer.task import Task
 from rsoccer.train.network import initial_policy
-from rsoccer.train.network.other_task import fitted
 
 TASKS: tuple[tuple[str, str, dict[str, Any]], ...] = (
     ("VSSSelfPlay-v0", "VSSMatch-v0", {}),
