@@ -169,7 +169,7 @@ mod tests {
                      own_goal_polar 3, own_goal_shot 3, body_velocities 2x2, body_positions 6x2, action 2",
                     "ball 4, ego 7, teammates 2x7, opponents 3x7, ball_polar 3, goal_polar 3, shot 4, \
                      own_goal_polar 3, own_goal_shot 3, body_velocities 2x2, body_positions 6x2, presence 6, \
-                     action 2, game 27",
+                     action 2, game 29",
                 ],
             ),
             (
@@ -178,11 +178,11 @@ mod tests {
                     "ball 6, ego 8, teammates 2x8, opponents 3x8, ball_polar 3, goal_polar 3, shot 4, \
                      body_velocities 2x2, body_positions 6x2, action 5",
                     "ball 6, ego 8, teammates 2x8, opponents 3x8, ball_polar 3, goal_polar 3, shot 4, \
-                     body_velocities 2x2, body_positions 6x2, presence 6, action 5, game 27",
+                     body_velocities 2x2, body_positions 6x2, presence 6, action 5, game 29",
                     "ball 6, ego 8, teammates 2x8, opponents 3x8, ball_polar 3, goal_polar 3, shot 4, \
                      body_velocities 2x2, body_positions 6x2, action 6; chip kick",
                     "ball 6, ego 8, teammates 2x8, opponents 3x8, ball_polar 3, goal_polar 3, shot 4, \
-                     body_velocities 2x2, body_positions 6x2, presence 6, action 6, game 27; chip kick",
+                     body_velocities 2x2, body_positions 6x2, presence 6, action 6, game 29; chip kick",
                 ],
             ),
         ];
