@@ -80,6 +80,8 @@ BLOCKS: Final[dict[str, tuple[Part, ...] | str]] = {
             "0 or 1",
         ),
         Part(1, "1 if the robot may touch the ball, else 0", "0 or 1"),
+        Part(1, "1 if the robot is the keeper of its team, else 0", "0 or 1"),
+        Part(1, "way that the robot has dribbled", "what the rules allow"),
         Part(1, "time until the command ends or the kick has to be taken", "10 s"),
         Part(2, "offset to the place of the next kick, x and y; 0 in play", LENGTH),
         Part(1, "goals of the own team less those of the opponents, -1 to 1", "5 goals"),
