@@ -144,7 +144,7 @@ impl Features<'_> {
         let lead = game.score[team] - game.score[team.opponent()];
         out[MAY_TOUCH..].copy_from_slice(&[
             if game.robot_may_touch(robot, team) { 1.0 } else { 0.0 },
-            if robot == self.sight.first_of(team) { 1.0 } else { 0.0 },
+            if robot == self.sight.keeper(team) { 1.0 } else { 0.0 },
             self.share_dribbled(robot),
             self.seconds_to_act / ACTION_SECONDS,
             place.x,

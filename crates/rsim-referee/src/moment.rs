@@ -58,9 +58,9 @@ impl<'a> Moment<'a> {
             .filter(|robot| robot.touched_ball)
     }
 
-    /// The keeper of a team: its first robot.
+    /// The keeper of a team.
     pub fn keeper(&self, team: Team) -> usize {
-        self.now.first_of(team)
+        self.now.keeper(team)
     }
 
     /// Place of the ball when its last toucher touched it in the step: at the start of the step for one

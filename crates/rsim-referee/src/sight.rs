@@ -287,6 +287,11 @@ impl Sight<'_> {
         self.layout.team_of(robot)
     }
 
+    /// The keeper of a team: its first robot.
+    pub const fn keeper(&self, team: Team) -> usize {
+        self.first_of(team)
+    }
+
     /// Index of the first robot of a team.
     pub const fn first_of(&self, team: Team) -> usize {
         match team {

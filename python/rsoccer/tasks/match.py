@@ -44,9 +44,8 @@ class Match(Soccer):
     waits for, whether the robot may touch the ball, whether it is its team's keeper (the first
     robot), the way that it has dribbled (what the rules allow), the time to act (10 s), the place
     of the next kick relative to the robot (half lengths of the field), the score difference (5
-    goals), the share of the half that is left, and the shares of both teams' robots that are on
-    the field.
-    `rsoccer._core.GAME_FEATURES` names all numbers.
+    goals), the share of the half that is left, and the shares of both teams' robots that are on the
+    field. `rsoccer._core.GAME_FEATURES` names all numbers.
 
     Goal of the task: score more goals than the other team, in the goal at +x (blue) or -x (yellow).
 

@@ -226,16 +226,17 @@ class SslKeepaway(Ssl):
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         """Compute the reward terms of the class's table; the loss of the ball terminates."""
-        self._update_possession(play)
+        passes = play.events.by_team(EventKind.PASS)
+        self._update_possession(play, passes[:, BLUE] > 0)
         lost = np.logical_or.reduce(list(self._losses(play).values()))
         sign = _SIGNS[play.viewpoint.teams]
         kept = np.full((len(lost), 1), self.config.time_step, np.float32)
-        passed = play.events.by_team(EventKind.PASS).astype(np.float32)[:, play.viewpoint.teams]
         nearest = rewards.nearest_to_ball(play)
         terms = {
             "kept": kept * sign,
             "lost": lost[:, None].astype(np.float32) * -sign,
-            "passes": passed * (play.viewpoint.teams == BLUE),
+            "passes": passes[:, play.viewpoint.teams].astype(np.float32)
+            * (play.viewpoint.teams == BLUE),
             "approach": rewards.approach_mouth(play, self.config) * nearest,
             "energy": rewards.energy(play),
         }
@@ -283,10 +284,9 @@ class SslKeepaway(Ssl):
             "no_pass": play.memory["since_pass"] > self._pass_steps,
         }
 
-    def _update_possession(self, play: Play) -> None:
+    def _update_possession(self, play: Play, passed: Mask) -> None:
         """Count the steps without a pass, and those for which the takers have had the ball."""
         memory = play.memory
-        passed = play.events.by_team(EventKind.PASS)[:, BLUE] > 0
         memory["since_pass"][:] = np.where(passed, 0, memory["since_pass"] + 1)
         takes = np.any(play.frame.yellow.infrared > 0.5, axis=1)
         memory["taken"][:] = np.where(takes, memory["taken"] + 1, 0)

@@ -8,8 +8,6 @@ how they were made and what they score. `tools.ship_policy` writes them.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Final
 
@@ -31,7 +29,8 @@ These are tasks derived from `VSSSelfPlay-v0`, in which whole teams play.
 SKILLS: Final = {"VSSMatch-v0": "VSSSelfPlay-v0"}
 """Tasks without a file that the policy of another task plays, see `rsoccer.policies.other_task`.
 
-A training of 6 million samples in matches that began with it made it worse (docs/cooperation.md).
+A training of 6 million samples in matches that began with it made it worse
+(docs/learning-tried.md).
 """
 FOLDER = Path(__file__).parent
 """Folder of the files."""
@@ -69,8 +68,8 @@ def load_best(task: Task, detail: str | None = None) -> Network:
             state, as in training.
 
     Returns:
-        The network of the task's own file, of `TEAM_TASK` where its observations are equal, or of
-        the task in `SKILLS`.
+        The network of the task's own file, of that of its skills in `SKILLS`, or of `TEAM_TASK`
+        where its observations are equal.
 
     Raises:
         ValueError: no policy for this task, one that does not fit its options, or an unknown
@@ -79,10 +78,15 @@ def load_best(task: Task, detail: str | None = None) -> Network:
     variant, mode = _variant_and_mode(detail)
     name = BEST if variant is None else f"{BEST}:{variant}"
     files = list_trained(variant)
-    if task.name in files:
-        network = Network.load(files[task.name], mode)
-        with _errors_of(name):
+    source = task.name if task.name in files else SKILLS.get(task.name)
+    if source in files:
+        network = Network.load(files[source], mode)
+        try:
+            if source != task.name:
+                network = fitted(network, task)
             network.check_fits(task, task.layout.size)
+        except ValueError as error:
+            raise ValueError(f"{name}: {error}") from error
         return network
     names = list(files)
     if TEAM_TASK in files:
@@ -90,24 +94,11 @@ def load_best(task: Task, detail: str | None = None) -> Network:
         if network.metadata.get("layout") == task.layout.text:
             return network
         names[names.index(TEAM_TASK)] += " (and tasks with its observations)"
-    skill = SKILLS.get(task.name)
-    if skill in files:
-        with _errors_of(name):
-            return fitted(Network.load(files[skill], mode), task)
     kind = "a trained" if variant is None else f"a {variant}"
     raise ValueError(
         f"{name}: expected a task with {kind} policy, got {task.name}; "
         f"there are policies for {', '.join(names) or 'no task'}"
     )
-
-
-@contextmanager
-def _errors_of(name: str) -> Iterator[None]:
-    """Put the name of a policy in front of errors."""
-    try:
-        yield
-    except ValueError as error:
-        raise ValueError(f"{name}: {error}") from error
 
 
 def _ending(variant: str | None) -> str:
