@@ -106,6 +106,39 @@ def test_files_of_models_are_taken_everywhere(path: Callable[[Path], Any], tmp_p
     assert rsoccer.make_task("VSS-v0", robot=path(robot)).config.robot == HEAVY
 
 
+def test_a_text_has_numbers_that_differ(tmp_path: Path) -> None:
+    assert RobotModel("vss_440rpm, mass=0.2") == RobotModel(" vss_440rpm , mass = 2e-1") == HEAVY
+    path = tmp_path / "robot.json"
+    path.write_text(HEAVY.to_json())
+    assert RobotModel(f"{path}, height=0.07") == RobotModel("vss_440rpm", mass=0.2, height=0.07)
+    assert RobotModel("vss_440rpm, mass=0.3", mass=0.2) == HEAVY, (
+        "numbers replace those of the text"
+    )
+    assert SimConfig(robot="vss_440rpm, mass=0.2") == SimConfig(robot=HEAVY)
+    task = rsoccer.make_task("VSS-v0", robot="vss_440rpm, mass=0.2")
+    assert task.config.robot == HEAVY
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("mass=0.2", 'must be one of .*, got "mass=0.2"'),
+        ("nothing, mass=0.2", 'must be one of .*, got "nothing"'),
+        ("vss_440rpm, mas=0.2", 'has no "mas"; its numbers are'),
+        ("vss_440rpm, mass=heavy", 'number=value .*, got "mass=heavy" in'),
+        ("vss_440rpm, mass=0.2, heavy", 'number=value .*, got "heavy" in'),
+        ("vss_440rpm, mass=0.2,", 'number=value .*, got "" in'),
+        ("vss_440rpm, mass=-1", "mass must be"),
+        ("vss_440rpm, mass=nan", "mass must be"),
+    ],
+)
+def test_numbers_of_a_text_are_refused_by_name(text: str, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        RobotModel(text)
+    with pytest.raises(ValueError, match=f"robot: .*{message}"):
+        rsoccer.make_task("VSS-v0", robot=text)
+
+
 class BytesPath:
     """A path of bytes, which names no model."""
 

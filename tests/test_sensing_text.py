@@ -22,6 +22,7 @@ def test_other_texts_are_refused(text: str) -> None:
     [
         (None, None),
         ("vsss", Sensing("vsss")),
+        ("vsss, position_noise=0.1", Sensing("vsss", position_noise=0.1)),
         (Sensing(delay=0.1), Sensing(delay=0.1)),
         ("tests.simulators:missing", "tests.simulators:missing"),
         (BLIND, None),
@@ -43,3 +44,4 @@ def test_what_files_hold(source: object, recorded: Sensing | str | None) -> None
 )
 def test_senses_in_a_few_words(sensing: Sensing | str, words: str) -> None:
     assert sensing_text.describe(sensing) == words
+    assert isinstance(sensing, str) or Sensing(words) == sensing

@@ -41,6 +41,9 @@ def test_a_name_a_model_and_its_file_are_the_same(tmp_path: Path) -> None:
     assert played(Matches("VSS-v0", sensing="vsss"), 5) == played(
         Matches("VSS-v0", sensing=Sensing.preset("vsss")), 5
     )
+    assert played(Matches("VSS-v0", sensing="vsss, delay=0.1"), 5) == played(
+        Matches("VSS-v0", sensing=Sensing("vsss", delay=0.1)), 5
+    )
 
 
 @pytest.mark.parametrize("off", [None, "none", Sensing()])

@@ -17,10 +17,11 @@ import sys
 import time
 from collections import Counter, defaultdict
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any, Final, Literal
+from typing import Any, Final, Literal, cast
 
 from benches.markdown import table
 from tools.paths import ROOT
@@ -78,6 +79,14 @@ def _offset(source: str, at: tuple[int, int]) -> int:
     return sum(map(len, lines[: at[0] - 1])) + at[1] - 1
 
 
+class UnlinkedError(RuntimeError):
+    """A compiled test program needs a function that the library no longer has.
+
+    The library has those copies of generic functions that it uses itself, and a mutant may use
+    others.
+    """
+
+
 class Workshop:
     """A copy of the crate that is a dynamic library, and its compiled tests."""
 
@@ -106,7 +115,10 @@ class Workshop:
         (folder / "Cargo.toml").write_text(text)
         with (folder / CRATE / "Cargo.toml").open("a") as manifest:
             manifest.write('\n[lib]\ncrate-type = ["dylib"]\n')
-        self.programs = self.build("test", "--no-run", "--test", "*") or []
+        built = self.build("test", "--no-run", "--test", "*") or []
+        # Copies, since tests that are compiled anew for a mutant may have its code inside.
+        (folder / "programs").mkdir(exist_ok=True)
+        self.programs = [Path(shutil.copy2(path, folder / "programs")) for path in built]
         if not self.programs or any(map(self.run, self.programs)) or self.test("--lib"):
             raise RuntimeError("the tests fail without any change")
 
@@ -142,7 +154,8 @@ class Workshop:
             if self.build("build", "--lib", "--profile", "test") is None:
                 return "unviable"
             if mutant.file.name not in GENERIC:
-                return self.try_known(mutant.file) or self.test("--lib") or "missed"
+                with suppress(UnlinkedError):
+                    return self.try_known(mutant.file) or self.test("--lib") or "missed"
             return self.test("--lib") or self.test("--test", "*") or "missed"
         finally:
             path.write_text(source)
@@ -199,7 +212,7 @@ class Workshop:
         except subprocess.TimeoutExpired:
             return "timeout"
         if ran.returncode == 127:
-            raise RuntimeError(f"{program}: {ran.stderr}")
+            raise UnlinkedError(f"{program}: {ran.stderr}")
         if catchers is not None:
             catchers += re.findall(r"(?m)^test (\S+) \.\.\. FAILED$", ran.stdout)
         return "caught" if ran.returncode else None
@@ -235,15 +248,23 @@ def main(arguments: list[str] | None = None) -> int:
         "--sample", type=int, help="number of mutants, drawn at random; default: all"
     )
     parser.add_argument("--shard", default="0/1", help="K/N: each Nth mutant, from the Kth on")
-    parser.add_argument("--log", type=Path, help="file that gets a line for each mutant")
+    parser.add_argument(
+        "--log",
+        type=Path,
+        help="file that gets a line for each mutant; those that it has are not judged again",
+    )
     options = parser.parse_args(arguments)
     nth, shards = map(int, options.shard.split("/"))
     chosen = [mutant for mutant in mutants(ROOT) if re.search(options.only, mutant.name)]
     if options.sample:
         chosen = random.Random(1).sample(chosen, min(options.sample, len(chosen)))
     workshop = Workshop(FOLDER / f"{nth}-{shards}")
+    known = read_log(options.log) if options.log else {}
     found: dict[Mutant, Outcome] = {}
     for mutant in chosen[nth::shards]:
+        if mutant.name in known:
+            found[mutant] = known[mutant.name]
+            continue
         start = time.monotonic()
         found[mutant] = workshop.judge(mutant)
         if options.log:
@@ -251,6 +272,24 @@ def main(arguments: list[str] | None = None) -> int:
                 log.write(f"{found[mutant]:8} {time.monotonic() - start:4.1f} s {mutant.name}\n")
     sys.stdout.write(f"{summary(found)}\n")
     return 0
+
+
+def read_log(path: Path) -> dict[str, Outcome]:
+    """Return the outcomes in a log by the names of the mutants.
+
+    Args:
+        path: the log; it need not exist.
+
+    Raises:
+        ValueError: a line that is none of a log.
+    """
+    found: dict[str, Outcome] = {}
+    for line in path.read_text().splitlines() if path.exists() else []:
+        match = re.fullmatch(r"(caught|timeout|missed|unviable) +[\d.]+ s (.+)", line)
+        if match is None:
+            raise ValueError(f"log: expected lines of outcome, time and name, got {line!r}")
+        found[match[2]] = cast(Outcome, match[1])
+    return found
 
 
 def summary(found: dict[Mutant, Outcome]) -> str:

@@ -187,7 +187,8 @@ class Field:
         `Field("ssl_b", width=5.0)` is the preset with one number replaced.
 
     Args:
-        name: Name of a preset, one of `PRESETS`, or path of a .json file for `from_json`.
+        name: Name of a preset, one of `PRESETS`, or path of a .json file for `from_json`, each also
+            with numbers behind it, as in "NAME, number=0.1".
         **numbers: Numbers that replace those of the preset, by the names of the properties.
 
     Raises:
@@ -342,7 +343,8 @@ class BallModel:
         `BallModel("ssl_tigers", rolling_deceleration=0.3)` is the preset with one number replaced.
 
     Args:
-        name: Name of a preset, one of `PRESETS`, or path of a .json file for `from_json`.
+        name: Name of a preset, one of `PRESETS`, or path of a .json file for `from_json`, each also
+            with numbers behind it, as in "NAME, number=0.1".
         **numbers: Numbers that replace those of the preset, by the names of the properties.
 
     Raises:
@@ -459,7 +461,8 @@ class RobotModel:
         `RobotModel("ssl_generic", max_kick_speed=6.5)` is the preset with one number replaced.
 
     Args:
-        name: Name of a preset, one of `PRESETS`, or path of a .json file for `from_json`.
+        name: Name of a preset, one of `PRESETS`, or path of a .json file for `from_json`, each also
+            with numbers behind it, as in "NAME, number=0.1".
         **numbers: Numbers that replace those of the preset, by the names of the properties.
 
     Raises:
@@ -683,8 +686,9 @@ class Sensing:
         is exact but late.
 
     Args:
-        name: Name of a preset, one of `PRESETS`, or path of a .json file for `from_json`; "none" by
-            default.
+        name: Name of a preset, one of `PRESETS`, or path of a .json file for `from_json`, each also
+            with numbers behind it, as in "rc2021, delay=0.1"; "none" by default, and before numbers
+            alone.
         **numbers: Numbers that replace those of the preset, by the names of the properties;
             `position_noise` and `missing` are those of the ball and of robots together.
 

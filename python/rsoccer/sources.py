@@ -36,8 +36,8 @@ SimulatorSource: TypeAlias = SimulatorFactory | Stepper | str
 """A factory, its "module:name", a name of `NETWORK_SIMULATORS`, or a simulator of one's own, which
 serves one object only: an environment with it cannot be copied."""
 SensingSource: TypeAlias = Sensing | SensorModel | str
-"""A `Sensing`, the name of its preset or its .json file, a sensor model, or "module:name" of one of
-them or of a function without arguments that makes it."""
+"""A `Sensing`, its text as in "rc2021" or "rc2021, delay=0.1", its .json file, a sensor model, or
+"module:name" of one of them or of a function without arguments that makes it."""
 _Closer = TypeVar("_Closer", bound=Closer)
 
 

@@ -10,7 +10,17 @@ import pytest
 
 from tools import referee_mutants
 from tools.paths import ROOT
-from tools.referee_mutants import CRATE, GENERIC, Mutant, Outcome, Workshop, main, summary
+from tools.referee_mutants import (
+    CRATE,
+    GENERIC,
+    Mutant,
+    Outcome,
+    UnlinkedError,
+    Workshop,
+    main,
+    read_log,
+    summary,
+)
 
 SOURCE = "fn f() -> bool {\n    1 <\n        2\n}\n"
 
@@ -110,6 +120,21 @@ def test_tests_are_compiled_anew_for_generic_code(tmp_path: Path) -> None:
     assert [call[2:] for call in built] == [("--lib",), ("--test", "*")]
 
 
+def test_tests_are_compiled_anew_where_they_need_a_function_that_is_gone(tmp_path: Path) -> None:
+    class Unlinked(Bench):
+        def run(
+            self, program: Path, *names: str, catchers: list[str] | None = None
+        ) -> Outcome | None:
+            if program.name == "vsss":
+                raise UnlinkedError("undefined symbol")
+            return super().run(program, *names, catchers=catchers)
+
+    bench = Unlinked(tmp_path, fails="*")
+    assert bench.of("cards.rs") == "caught", "by the tests that were compiled anew"
+    built = [call for call in bench.calls if "--no-run" in call]
+    assert [call[2:] for call in built] == [("--lib",), ("--test", "*")]
+
+
 def test_failing_tests_are_read_from_the_output_of_a_program(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -157,5 +182,17 @@ def test_a_shard_of_the_chosen_mutants_is_judged_and_logged(
     lines = log.read_text().splitlines()
     assert len(lines) == 2 and all(re.match(r"missed +\d+\.\d s crates/", line) for line in lines)
     judged.clear()
+    assert main(["--shard", "1/2", "--log", str(log)]) == 0
+    assert judged == every[5:], "those of the log are known"
+    assert "| all | 3 | 0 | 3 | 0.0% |" in capsys.readouterr().out
+    judged.clear()
     assert main(["--shard", "1/2", "--sample", "4"]) == 0
     assert len(judged) == 2 and set(judged) < set(every)
+
+
+def test_a_line_that_is_none_of_a_log_is_refused(tmp_path: Path) -> None:
+    log = tmp_path / "log"
+    assert read_log(log) == {}
+    log.write_text("caught    1.5 s a.rs:1:1: replace a with b\nlost 3 s c\n")
+    with pytest.raises(ValueError, match="got 'lost 3 s c'"):
+        read_log(log)

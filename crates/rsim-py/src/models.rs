@@ -18,6 +18,8 @@ use crate::config::invalid;
 const SUFFIX: &str = ".json";
 /// Ways to name a model, in words.
 const NAMES: &str = "a preset's name, the path of a .json file";
+/// Preset of models whose text has numbers alone, where there is one of this name.
+const OFF: &str = "none";
 
 /// A model class with presets and numbers.
 pub(crate) trait Model: Sized + Clone + for<'py> FromPyObjectOwned<'py> {
@@ -25,6 +27,8 @@ pub(crate) trait Model: Sized + Clone + for<'py> FromPyObjectOwned<'py> {
     const CLASS: &'static str;
     /// Name of its part of a file with several models.
     const PART: &'static str;
+    /// Names for two numbers together.
+    const OF_BOTH: &'static [(&'static str, [&'static str; 2])] = &[];
 
     fn preset(name: &str) -> PyResult<Self>;
     fn decoded(text: &str) -> PyResult<Self>;
@@ -44,7 +48,7 @@ pub(crate) trait Model: Sized + Clone + for<'py> FromPyObjectOwned<'py> {
     fn with(mut self, numbers: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         for (key, value) in numbers.into_iter().flatten() {
             let key: String = key.extract()?;
-            self.set(&key, |place| {
+            self.set(&key, &|place| {
                 *place = value.extract().map_err(|_| {
                     PyTypeError::new_err(format!("{key}: expected a number, got {value:?}"))
                 })?;
@@ -55,8 +59,12 @@ pub(crate) trait Model: Sized + Clone + for<'py> FromPyObjectOwned<'py> {
         Ok(self)
     }
 
-    /// Replaces a number; a `ValueError` if this kind of model does not have it.
-    fn set(&mut self, key: &str, write: impl FnOnce(&mut f32) -> PyResult<()>) -> PyResult<()> {
+    /// Replaces a number, or two that have a name together; a `ValueError` if this kind of model does not
+    /// have it.
+    fn set(&mut self, key: &str, write: &dyn Fn(&mut f32) -> PyResult<()>) -> PyResult<()> {
+        if let Some((_, names)) = Self::OF_BOTH.iter().find(|(both, _)| *both == key) {
+            return names.iter().try_for_each(|name| self.set(name, write));
+        }
         if let Some(place) = self.number_mut(key) {
             return write(place);
         }
@@ -86,7 +94,7 @@ pub(crate) trait Model: Sized + Clone + for<'py> FromPyObjectOwned<'py> {
                     "{key}: expected a number, got {value}"
                 )));
             };
-            model.set(&key, |place| {
+            model.set(&key, &|place| {
                 *place = narrowed(number);
                 Ok(())
             })?;
@@ -129,10 +137,39 @@ pub(crate) fn named<T: Model>(argument: &str, value: &Bound<'_, PyAny>) -> PyRes
 /// The model that an argument names.
 fn found<T: Model>(argument: &str, expected: &str, value: &Bound<'_, PyAny>) -> PyResult<T> {
     match text_or_path(value)? {
-        Some(path) if path.ends_with(SUFFIX) => T::read(&path),
-        Some(name) => T::preset(&name),
+        Some(text) => of_text(&text),
         None => Err(unexpected(argument, expected, value)),
     }
+}
+
+/// The model that a text names: a preset or a file, and numbers that differ, as in `rc2021, delay=0.1`.
+fn of_text<T: Model>(text: &str) -> PyResult<T> {
+    if text.ends_with(SUFFIX) {
+        return T::read(text);
+    }
+    if !text.contains('=') {
+        return T::preset(text);
+    }
+    let mut parts = text.split(',').map(str::trim).peekable();
+    let name = parts.next_if(|part| !part.contains('='));
+    let mut model: T = match name {
+        Some(name) => of_text(name)?,
+        None => T::preset(OFF).or_else(|_| T::preset(text))?,
+    };
+    for part in parts {
+        let pair = part.split_once('=').map(|(key, value)| (key.trim(), value.trim()));
+        let Some((key, Ok(number))) = pair.map(|(key, value)| (key, value.parse::<f64>())) else {
+            return Err(PyValueError::new_err(format!(
+                "expected number=value after the name, as in 'rc2021, delay=0.1', got {part:?} in {text:?}"
+            )));
+        };
+        model.set(key, &|place| {
+            *place = narrowed(number);
+            Ok(())
+        })?;
+    }
+    model.validate()?;
+    Ok(model)
 }
 
 /// The nearest float.
@@ -173,7 +210,7 @@ where
 /// A frozen Python class around a model of the core.
 macro_rules! mirror {
     ($name:ident, $part:literal, $doc:literal, { $($extra:tt)* }) => {
-        mirror!($name, $part, $doc, new {
+        mirror!($name, $part, $doc, both &[], new {
             #[new]
             #[pyo3(signature = (name, **numbers))]
             fn new(name: &Bound<'_, PyAny>, numbers: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
@@ -182,7 +219,7 @@ macro_rules! mirror {
             }
         }, { $($extra)* });
     };
-    ($name:ident, $part:literal, $doc:literal, new { $($new:tt)* }, { $($extra:tt)* }) => {
+    ($name:ident, $part:literal, $doc:literal, both $both:expr, new { $($new:tt)* }, { $($extra:tt)* }) => {
         #[doc = $doc]
         #[pyclass(frozen, eq, from_py_object, module = "rsoccer._core")]
         #[derive(Clone, PartialEq)]
@@ -191,6 +228,7 @@ macro_rules! mirror {
         impl Model for $name {
             const CLASS: &'static str = stringify!($name);
             const PART: &'static str = $part;
+            const OF_BOTH: &'static [(&'static str, [&'static str; 2])] = $both;
 
             fn preset(name: &str) -> PyResult<Self> {
                 Ok(Self(rsim_core::$name::preset(name).map_err(invalid)?))
@@ -349,6 +387,10 @@ mirror!(
     Sensing,
     "sensing",
     "What lies between the true state and what robots know, and between commands and what they do.",
+    both &[
+        ("position_noise", ["ball_position_noise", "robot_position_noise"]),
+        ("missing", ["missing_balls", "missing_robots"]),
+    ],
     new {
         #[new]
         #[pyo3(signature = (name = None, **numbers))]
@@ -357,21 +399,11 @@ mirror!(
             numbers: Option<&Bound<'_, PyDict>>,
         ) -> PyResult<Self> {
             let expected = "a preset's name or the path of a .json file";
-            let mut sensing = match name {
+            let sensing = match name {
                 Some(name) => found::<Self>("name", expected, name)?,
                 None => Self(rsim_core::Sensing::OFF),
             };
-            let Some(numbers) = numbers else { return Ok(sensing) };
-            let numbers = numbers.copy()?;
-            for (both, names) in OF_BOTH {
-                if let Some(value) = numbers.get_item(both)? {
-                    let of_each = PyDict::new(numbers.py());
-                    names.iter().try_for_each(|name| of_each.set_item(name, &value))?;
-                    numbers.del_item(both)?;
-                    sensing = sensing.with(Some(&of_each))?;
-                }
-            }
-            sensing.with(Some(&numbers))
+            sensing.with(numbers)
         }
     },
     {
@@ -387,9 +419,3 @@ mirror!(
         }
     }
 );
-
-/// Names for the numbers of the ball and of robots together.
-const OF_BOTH: [(&str, [&str; 2]); 2] = [
-    ("position_noise", ["ball_position_noise", "robot_position_noise"]),
-    ("missing", ["missing_balls", "missing_robots"]),
-];

@@ -14,7 +14,7 @@ M = TypeVar("M", Field, BallModel, RobotModel)
 
 
 def model(name: str, value: object, kind: type[M]) -> str | M:
-    """Validate a preset's name, a file or a model.
+    """Validate a preset's name, with or without numbers that differ, a file or a model.
 
     Args:
         name: name of the argument, for the error.
@@ -22,12 +22,12 @@ def model(name: str, value: object, kind: type[M]) -> str | M:
         kind: class of the model, such as `RobotModel`.
 
     Returns:
-        The preset's name, the model, or the model that the file holds.
+        The preset's name, the model, or the model that the file or the text with numbers holds.
 
     Raises:
         FileNotFoundError: no such file.
         TypeError: neither text nor a `kind`.
-        ValueError: an unknown preset, or a file without such a model.
+        ValueError: an unknown preset or number, or a file without such a model.
     """
     if isinstance(value, kind):
         return value
@@ -39,6 +39,11 @@ def model(name: str, value: object, kind: type[M]) -> str | M:
         )
     if option_values.is_file(text):
         return option_values.read_model(name, text, kind)
+    if "=" in text:
+        try:
+            return kind(text)
+        except ValueError as error:
+            raise ValueError(f"{name}: {error}") from error
     if text not in kind.PRESETS:
         raise ValueError(
             f"{name}: expected one of {list(kind.PRESETS)}, or the path of a "

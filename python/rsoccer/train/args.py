@@ -68,7 +68,8 @@ class Args:
     simulator: str | None = None
     """module:function (config, worlds, threads) that makes the simulator, in place of the own"""
     sensing: str | None = None
-    """senses of the robots: a preset's name, a .json file, or module:name"""
+    """senses of the robots: a preset's name, also with numbers as in "rc2021, delay=0.1", a .json
+    file, or module:name"""
     randomization: Mapping[str, Any] = field(default_factory=dict)
     """numbers that each episode draws, by name, such as {"robot.mass": [0.9, 1.1]}"""
     history: Count = 1

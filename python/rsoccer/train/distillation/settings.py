@@ -37,7 +37,8 @@ class DistillArgs:
     samples: Count = 600_000
     """decisions of all learning robots, up to a full round"""
     sensing: str | None = "rc2021"
-    """senses of the robots: a preset's name, or a .json file"""
+    """senses of the robots: a preset's name, also with numbers as in "rc2021, forecast=1", or a
+    .json file"""
     randomization: Mapping[str, Any] = field(default_factory=dict)
     """numbers that each episode draws, by name, such as {"robot.mass": [0.9, 1.1]}"""
     command_delays: tuple[Delay, ...] = (0.0, 0.025, 0.05, 0.075, 0.1)
