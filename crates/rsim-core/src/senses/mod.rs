@@ -7,6 +7,7 @@
 mod actuators;
 mod cameras;
 pub(crate) mod detections;
+mod held;
 mod link;
 mod random;
 mod reports;
@@ -27,6 +28,7 @@ use crate::models::config::SimConfig;
 use crate::models::sensing::Sensing;
 use crate::senses::actuators::Actuators;
 use crate::senses::detections::CameraFrame;
+use crate::senses::held::Beams;
 use crate::senses::link::Link;
 use crate::senses::random::{Draws, Purpose};
 use crate::senses::reports::Reports;
@@ -160,8 +162,9 @@ impl Senses {
         let now = self.now(config);
         self.reports.send(now, (&self.sensing, self.key), state, parameters);
         self.reports.receive(now);
+        let beams = Beams { cut: self.reports.cut, parameters };
         for vision in &mut self.visions {
-            vision.receive(now, &self.sensing, parameters);
+            vision.receive(now, &self.sensing, beams);
         }
     }
 

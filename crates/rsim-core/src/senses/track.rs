@@ -30,6 +30,8 @@ struct Gain {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Filter {
     gains: [Gain; COUNTS],
+    /// Time between two detections, s.
+    period: f32,
 }
 
 impl Filter {
@@ -66,7 +68,14 @@ impl Filter {
             };
             count += 1.0;
         }
-        Self { gains }
+        Self { gains, period }
+    }
+
+    /// Inverse of the time since the last detection, 1/s, by which a distance from the prediction corrects a
+    /// velocity. After a shorter time than usual the distance is noise: it would make a robot turn once in
+    /// each frame, which no later frame could tell from standing still.
+    pub(super) fn rate(&self, time: f32) -> f32 {
+        1.0 / time.max(self.period)
     }
 
     fn gain(&self, count: u8) -> &Gain {
@@ -107,8 +116,7 @@ impl PositionTrack {
         self.position += (detected - self.position) * part;
     }
 
-    /// Takes in a detection; `rate` is the inverse of the time since the last one, 1/s. One that is not
-    /// expected tells of a push since then, in whose middle the velocity changed.
+    /// Takes in a detection; `rate` is that of [`Filter::rate`], 1/s. One that is not expected tells of a push since then, in whose middle the velocity changed.
     pub(super) fn update(&mut self, detected: Vector, rate: f32, filter: &Filter) {
         let difference = detected - self.position;
         let gain = filter.gain(self.count);
@@ -155,7 +163,7 @@ impl HeadingTrack {
         self.heading = turned(self.heading, self.angular_velocity * time);
     }
 
-    /// Takes in a detection; `rate` is the inverse of the time since the last one, 1/s.
+    /// Takes in a detection; `rate` is that of [`Filter::rate`], 1/s.
     pub(super) fn update(&mut self, detected: Vector, rate: f32, filter: &Filter) {
         let (cos, sin) = (self.heading.dot(detected), self.heading.perp_dot(detected));
         if cos < MISREAD {

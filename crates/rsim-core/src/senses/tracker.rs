@@ -6,6 +6,7 @@ use crate::geometry::motion::Motion;
 use crate::math::{Vec3, Vector};
 use crate::models::sensing::Sensing;
 use crate::senses::detections::{DetectedBall, DetectedRobot, Detections};
+use crate::senses::held::{Beams, Held};
 use crate::senses::track::{Filter, HeadingTrack, PositionTrack, unit};
 
 /// Standard deviation of a detection that the filters count with at least, m and rad.
@@ -39,6 +40,8 @@ pub(super) struct Ball {
     unseen: f32,
     /// Number of frames in a row whose balls were too far away.
     refused: u8,
+    /// The robot in whose mouth it is.
+    held: Option<Held>,
 }
 
 /// Estimate of a robot.
@@ -88,7 +91,8 @@ impl Tracker {
     pub(super) fn new(robots: usize, sensing: &Sensing, period: f32) -> Self {
         let track = PositionTrack::new(Vector::ZERO, Vector::ZERO);
         let heading = HeadingTrack::new(Vector::X, 0.0);
-        let ball = Ball { track, height: [0.0; 2], spin: Vec3::ZERO, unseen: 0.0, refused: 0 };
+        let ball =
+            Ball { track, height: [0.0; 2], spin: Vec3::ZERO, unseen: 0.0, refused: 0, held: None };
         let robot = Robot { track, heading, unseen: 0.0 };
         let filters = Filters::of(sensing, period);
         Self { ball, robots: vec![robot; robots], time: 0.0, filters }
@@ -110,8 +114,15 @@ impl Tracker {
         self.time
     }
 
-    /// Takes in a frame. One that is older than the last is of no use.
-    pub(super) fn take(&mut self, sensing: &Sensing, frame: &Detections, ball_radius: f32) {
+    /// Takes in a frame. One that is older than the last is of no use. `beams` are `None` where robots report
+    /// nothing.
+    pub(super) fn take(
+        &mut self,
+        sensing: &Sensing,
+        frame: &Detections,
+        ball_radius: f32,
+        beams: Option<Beams<'_>>,
+    ) {
         #[expect(clippy::cast_possible_truncation, reason = "time between two frames")]
         let elapsed = (frame.time - self.time) as f32;
         if elapsed < 0.0 {
@@ -121,14 +132,40 @@ impl Tracker {
         if sensing.tracker < 0.5 {
             return self.copy(frame);
         }
-        self.ball.take(elapsed, &frame.balls, &self.filters.ball);
-        let velocity = self.ball.track.velocity;
-        self.ball.spin = (velocity.perp() / ball_radius).extend(0.0);
         for robot in &mut self.robots {
             robot.predict(elapsed);
         }
         for seen in &frame.robots {
             self.robots[seen.robot].update(&seen.motion, &self.filters);
+        }
+        self.take_ball(sensing, &frame.balls, elapsed, beams);
+        let velocity = self.ball.track.velocity;
+        self.ball.spin = (velocity.perp() / ball_radius).extend(0.0);
+    }
+
+    /// Takes in the balls of a frame, `elapsed` (s) after the last, once its robots are taken in.
+    fn take_ball(
+        &mut self,
+        sensing: &Sensing,
+        balls: &[DetectedBall],
+        elapsed: f32,
+        beams: Option<Beams<'_>>,
+    ) {
+        let (ball, robots) = (&mut self.ball, &self.robots);
+        let Some(beams) = beams else { return ball.take(elapsed, balls, &self.filters.ball) };
+        ball.held = ball.held.and_then(|mut held| {
+            let robot = robots[held.robot].motion();
+            held.take(balls, &robot, beams, sensing, elapsed).then_some(held)
+        });
+        if ball.held.is_none() {
+            ball.take(elapsed, balls, &self.filters.ball);
+            let motion = |robot: usize| robots[robot].motion();
+            ball.held = Held::find(ball.track.position, motion, beams, sensing);
+        }
+        if let Some(held) = ball.held {
+            let (position, velocity) = held.motion(&robots[held.robot].motion());
+            ball.track = PositionTrack::new(position, velocity);
+            (ball.height, ball.unseen, ball.refused) = ([0.0; 2], 0.0, 0);
         }
     }
 
@@ -152,7 +189,7 @@ impl Ball {
     fn begin(&mut self, seen: &DetectedBall) {
         self.track = PositionTrack::new(seen.position, seen.velocity);
         (self.height, self.spin) = (seen.height, seen.spin);
-        (self.unseen, self.refused) = (0.0, 0);
+        (self.unseen, self.refused, self.held) = (0.0, 0, None);
     }
 
     /// Goes on by `elapsed` to a frame with these balls, of which some may be ghosts.
@@ -190,12 +227,22 @@ impl Ball {
         if self.unseen <= 0.0 {
             return self.track.average(position, filter);
         }
-        self.track.update(position, 1.0 / self.unseen, filter);
+        self.track.update(position, filter.rate(self.unseen), filter);
         (self.unseen, self.refused) = (0.0, 0);
     }
 }
 
 impl Robot {
+    /// The estimated motion.
+    fn motion(&self) -> Motion {
+        Motion {
+            position: self.track.position,
+            heading: self.heading.heading,
+            velocity: self.track.velocity,
+            angular_velocity: self.heading.angular_velocity,
+        }
+    }
+
     fn begin(&mut self, seen: &Motion) {
         self.track = PositionTrack::new(seen.position, seen.velocity);
         self.heading = HeadingTrack::new(seen.heading, seen.angular_velocity);
@@ -216,9 +263,8 @@ impl Robot {
         if self.unseen <= 0.0 {
             return self.track.average(seen.position, &filters.robot);
         }
-        let rate = 1.0 / self.unseen;
-        self.track.update(seen.position, rate, &filters.robot);
-        self.heading.update(seen.heading, rate, &filters.heading);
+        self.track.update(seen.position, filters.robot.rate(self.unseen), &filters.robot);
+        self.heading.update(seen.heading, filters.heading.rate(self.unseen), &filters.heading);
         self.unseen = 0.0;
     }
 }

@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::body_parameters::BodyParameters;
 use crate::models::config::SimConfig;
 use crate::models::sensing::Sensing;
 use crate::senses::Watched;
 use crate::senses::cameras::Cameras;
 use crate::senses::detections::{CameraFrame, Detections};
+use crate::senses::held::Beams;
 use crate::senses::random::Draws;
 use crate::senses::tracker::Tracker;
 
@@ -47,13 +47,13 @@ impl Vision {
         self.cameras.expose(now, (sensing, self.key), watched.state, watched.parameters);
     }
 
-    /// Takes in the frames that have arrived.
-    pub(super) fn receive(&mut self, now: f64, sensing: &Sensing, parameters: &BodyParameters) {
+    /// Takes in the frames that have arrived, with the break beams that are known to be cut.
+    pub(super) fn receive(&mut self, now: f64, sensing: &Sensing, beams: Beams<'_>) {
         for frame in self.arrived.drain(..) {
             self.cameras.recycle(frame);
         }
         while let Some(frame) = self.cameras.arrived(now) {
-            self.tracker.take(sensing, &frame, parameters.ball.radius);
+            self.tracker.take(sensing, &frame, beams.parameters.ball.radius, Some(beams));
             self.arrived.push(frame);
         }
     }

@@ -89,7 +89,7 @@ impl VisionTracker {
         if self.time.is_some() {
             let balls: &[[f32; 2]] = if self.has_ball { balls } else { &[] };
             let frame = detections(time, balls, &known);
-            self.tracker.take(&self.sensing, &frame, self.config.ball.radius);
+            self.tracker.take(&self.sensing, &frame, self.config.ball.radius, None);
         }
         // A body that has just come into sight rests until it is seen again.
         let first = balls.len().min(usize::from(!self.has_ball));

@@ -146,6 +146,21 @@ fn headings_are_misread_by_90_degrees_and_the_tracker_does_not_believe_them() {
 }
 
 #[test]
+fn a_first_frame_soon_after_the_start_made_robots_turn_once_in_each_frame() {
+    let scene = Scene::lined_up("still", scenes::ssl(3, 3), Driver::STILL);
+    let sensing = Sensing { delay: 0.0, ..Sensing::RC2021 };
+    let played = Played::new(&scene, sensing, 2000, 12);
+    for robot in 0..6 {
+        let turns = played.column(Some(robot), "v_theta");
+        let most = turns.iter().flatten().map(|[_, known]| known.abs()).fold(0.0, f32::max);
+        assert!(most < 8.0, "a standing robot seems to turn at {most} rad/s");
+    }
+    let speeds = played.column(None, "v_x");
+    let most = speeds.iter().flatten().map(|[_, known]| known.abs()).fold(0.0, f32::max);
+    assert!(most < 0.5, "a resting ball seems to move at {most} m/s");
+}
+
+#[test]
 fn the_speed_of_a_kicked_ball_is_known_soon() {
     let mut scene = scenes::ball_in_mouth(&[0.0; 6]);
     scene.config.time_step = 0.005;

@@ -3,6 +3,7 @@
 mod actuation;
 mod cameras;
 mod forecast;
+mod held;
 mod state;
 
 use rsim_core::columns::robot_column;
