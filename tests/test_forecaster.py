@@ -458,3 +458,113 @@ def test_a_policy_trained_on_the_truth_plays_with_late_commands() -> None:
     late, forecast = score(Sensing(command_delay=DELAY)), score(Sensing(**LATE))
     assert late < 0.6
     assert forecast > 0.9
+
+
+class Turner(Spinner):
+    """A policy that turns its robots alike, whatever their group."""
+
+    def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
+        chosen = np.zeros(inputs.action_shape, np.float32)
+        chosen[..., -1 if chosen.shape[-1] == 2 else 2] = 0.7
+        return chosen
+
+
+class Expecting(Turner):
+    """A policy that expects a forecast."""
+
+    forecasts = True
+
+
+@pytest.mark.parametrize("team", ["blue", "yellow"])
+@pytest.mark.parametrize("noise", [0.0, 0.01])
+def test_the_team_of_a_policy_that_expects_it_forecasts(team: str, noise: float) -> None:
+    """Its opponents, who look, know what is sensed."""
+    task, late = TASKS["SSLSelfPlay-v0"], Sensing(command_delay=DELAY, position_noise=noise)
+    all_forecast = Sensing(command_delay=DELAY, forecast=1.0, position_noise=noise)
+    other = "yellow" if team == "blue" else "blue"
+    one = {"all": Turner(task), team: Expecting(task)}
+    ways: dict[str, Matches] = {
+        "expected": Matches(task, 2, 3, controllers=one, sensing=late),
+        "asked": Matches(
+            task, 2, 3, controllers={"all": Turner(task)}, sensing=late, forecasting=[team]
+        ),
+        "all": Matches(task, 2, 3, controllers={"all": Turner(task)}, sensing=all_forecast),
+        "none": Matches(task, 2, 3, controllers={"all": Turner(task)}, sensing=late),
+    }
+    known = {}
+    for name, matches in ways.items():
+        matches.reset()
+        for _ in range(12):
+            matches.step(np.zeros((2, 0, matches.action_size), np.float32))
+        known[name] = {
+            side: matches.play.known_to(index).rows.copy()
+            for index, side in enumerate(("blue", "yellow"))
+        }
+    assert not same(known["all"][team], known["none"][team]), "the forecast is another state"
+    for name in ("expected", "asked"):
+        assert same(known[name][team], known["all"][team])
+        assert same(known[name][other], known["none"][other])
+    assert ways["expected"].sensing == late, "files name what was asked for"
+
+
+def test_nothing_forecasts_on_the_true_state_and_in_training_with_it_nothing_changes() -> None:
+    task = TASKS["VSSSelfPlay-v0"]
+    exact = Matches(task, controllers={"yellow": Expecting(task)}, forecasting=["blue"])
+    exact.reset()
+    assert exact.play.senses is None
+    asked = Matches(task, sensing=Sensing(**LATE), forecasting=["blue", "yellow"])
+    asked.reset()
+    asked.step(np.ones((1, len(asked.agents), asked.action_size), np.float32))
+    given = Matches(task, sensing=Sensing(**LATE))
+    given.reset()
+    given.step(np.ones((1, len(given.agents), given.action_size), np.float32))
+    assert same(asked.play.sensed.rows, given.play.sensed.rows)
+
+
+def test_varied_numbers_stay_with_an_expected_forecast() -> None:
+    task = TASKS["VSSSelfPlay-v0"]
+    matches = Matches(
+        task,
+        3,
+        controllers={"all": "ou", "blue": Expecting(task)},
+        randomization={"sensing.delay": (0.05, 0.1)},
+    )
+    matches.reset()
+    for _ in range(6):
+        matches.step(np.zeros((3, 0, matches.action_size), np.float32))
+    blue, yellow = matches.play.known_to(0), matches.play.known_to(1)
+    assert not same(blue.rows, yellow.rows)
+
+
+@pytest.mark.parametrize("asked", ["blue", ["green"], ["blue", 3]])
+def test_unknown_teams_are_asked_in_vain(asked: Any) -> None:  # noqa: ANN401
+    with pytest.raises(ValueError, match=r"forecasting: expected some of \['blue', 'yellow'\]"):
+        Matches("VSS-v0", sensing=Sensing(**LATE), forecasting=asked)
+
+
+def test_a_policy_that_expects_a_forecast_joins_no_team_without() -> None:
+    task = TASKS["VSSSelfPlay-v0"]
+    late = Sensing(command_delay=DELAY)
+    matches = Matches(task, controllers={"yellow": Turner(task)}, sensing=late)
+    with pytest.raises(ValueError, match="without forecasts for yellow, got Expecting"):
+        matches.change_controllers({"yellow": Expecting(task)})
+    for allowed in (
+        Matches(task, controllers={"yellow": Turner(task)}),
+        Matches(task, controllers={"yellow": Expecting(task)}, sensing=late),
+    ):
+        allowed.change_controllers({"yellow": Expecting(task)})
+
+
+def test_an_evaluated_policy_that_expects_a_forecast_gets_it() -> None:
+    """Against opponents who look and know what is sensed."""
+    late = Sensing("rc2021", command_delay=DELAY)
+
+    def score(policy: Policy, sensing: Sensing) -> tuple[float, ...]:
+        found = rsoccer.evaluate(policy, "zero", 10, task="VSSSelfPlay-v0", sensing=sensing)
+        return found.score, found.seconds.mean, found.returns.mean
+
+    best = make_policy("best", "VSSSelfPlay-v0")
+    expecting = make_policy("best", "VSSSelfPlay-v0")
+    expecting.forecasts = True
+    forecast = Sensing("rc2021", command_delay=DELAY, forecast=1.0)
+    assert score(expecting, late) == score(best, forecast) != score(best, late)

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rsoccer.arrays import Doubles, Floats, Mask
-from rsoccer.controllers import Controller
+from rsoccer.controllers import Controller, resolve
+from rsoccer.frame import team_of
 from rsoccer.game import BLUE, NOBODY, YELLOW, EventKind
 from rsoccer.matches import Matches, Outcome
 from rsoccer.play import Play
@@ -18,7 +19,7 @@ from rsoccer.policies.base import MatchState, Memory, Policy, PolicyInput, requi
 from rsoccer.randomization import Ranges
 from rsoccer.rng import WorldRng
 from rsoccer.sources import SensingSource, SimulatorSource, closed_after
-from rsoccer.task import Task
+from rsoccer.task import Learn, Task
 
 RETURN = "return"
 """Name of the score of a task without a success metric: the return of the episode."""
@@ -144,10 +145,17 @@ class EpisodeRunner:
             autoreset="disabled",
             simulator=self.simulator,
             sensing=self.sensing,
+            forecasting=self._forecasting(),
             randomization=self.randomization,
         )
         with closed_after(matches, self.simulator):
             return self._play(matches, seed)
+
+    def _forecasting(self) -> list[str]:
+        """Teams of the learners if the policy in their place expects a forecast."""
+        controllers = resolve(self.task, self.controllers)
+        learners = [robot for robot, each in controllers.items() if isinstance(each, Learn)]
+        return sorted({team_of(robot) for robot in learners}) if self.policy.forecasts else []
 
     def _play(self, matches: Matches, seed: int) -> _Batch:
         """Results of matches that have not begun."""

@@ -14,7 +14,7 @@ from rsoccer.arrays import Array, Floats
 from rsoccer.controllers import Assignment, Controllers, PolicyGroup, given_by_name
 from rsoccer.frame import team_of
 from rsoccer.game import new_game
-from rsoccer.policies import PolicyLike, make_policy
+from rsoccer.policies import Policy, PolicyLike, make_policy
 from rsoccer.registry import make_task, options_of
 from rsoccer.rules.base import columns
 from rsoccer.task import LEARN, Task
@@ -105,19 +105,26 @@ def _equal(first: Array | None, second: Array | None) -> bool:
     return np.array_equal(first, second)
 
 
-def change_controllers(task: Task, assignment: Assignment, controllers: Controllers) -> None:
+def change_controllers(
+    task: Task,
+    assignment: Assignment,
+    controllers: Controllers,
+    forecasting: tuple[int, ...] | None = None,
+) -> None:
     """Replace policies of robots that do not learn; their memory begins anew.
 
     Args:
         task: the task that is played.
         assignment: controllers of the matches, which change.
         controllers: policies by robot, team or "all"; others stay.
+        forecasting: teams that forecast, 0 for blue and 1 for yellow; None where robots know the
+            true state or have senses of another kind.
 
     Raises:
         TypeError: something that is not a policy.
         ValueError: an unknown robot, one that learns, different policies for robots that share one,
-            a policy that does not fit the task, or one that observes where the one before did not.
-            Nothing has changed.
+            a policy that does not fit the task, one that observes where the one before did not, or
+            one that expects a forecast in a team without it. Nothing has changed.
     """
     given = given_by_name(controllers)
     valid = ["all", *SIDES, *task.robots]
@@ -138,6 +145,8 @@ def change_controllers(task: Task, assignment: Assignment, controllers: Controll
     ]
     if not changes:
         raise ValueError(f"controllers: expected robots with policies, got {sorted(given)}")
+    for group, policy in changes:
+        _check_forecast(task, group, policy, forecasting)
     for group, policy in changes:
         shape = (len(group.rng), len(group.robots), task.action_size)
         group.policy = policy
@@ -180,6 +189,21 @@ def _policy(
             "that observes, such as 'scripted:0'"
         )
     return policy
+
+
+def _check_forecast(
+    task: Task, group: PolicyGroup, policy: Policy, forecasting: tuple[int, ...] | None
+) -> None:
+    """Check that the team of a new policy forecasts if the policy expects it."""
+    teams = {team_of(task.robots[robot]) for robot in group.robots}
+    if policy.forecasts and forecasting is not None:
+        without = sorted(team for team in teams if SIDES.index(team) not in forecasting)
+        if without:
+            raise ValueError(
+                f"controllers: expected a policy without forecasts for {', '.join(without)}, "
+                f"got {type(policy).__name__}; begin with one that expects them, or with "
+                "sensing that has forecast=1"
+            )
 
 
 def start_rows(task: Task, rows: object) -> Floats:

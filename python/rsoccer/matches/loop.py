@@ -28,7 +28,15 @@ from rsoccer.matches.learners import Learners
 from rsoccer.matches.match_state import MatchState
 from rsoccer.matches.outcome import Episodes, Outcome
 from rsoccer.matches.paused import PausedWorlds
-from rsoccer.matches.sensing import new_senses, simulated, teams_differ
+from rsoccer.matches.sensing import (
+    forecasting_teams,
+    may_forecast,
+    new_senses,
+    simulated,
+    team_index,
+    teams_differ,
+    with_forecast,
+)
 from rsoccer.matches.starts import Starts
 from rsoccer.new_play import new_play, new_viewpoint
 from rsoccer.play import Play
@@ -125,6 +133,7 @@ class Matches:
         autoreset: str = "same_step",
         simulator: SimulatorSource | None = None,
         sensing: SensingSource | None = None,
+        forecasting: Sequence[str] = (),
         randomization: Ranges | None = None,
         history: int = 1,
         max_steps: int | None = None,
@@ -151,6 +160,8 @@ class Matches:
             sensing: what robots know of the true state, and how they obey: a `Sensing`, the name
                 of a preset of it, a `rsoccer.senses.SensorModel`, or its text "module:name"; None
                 if they know and obey exactly.
+            forecasting: teams, "blue" or "yellow", that forecast with a `Sensing` whose `forecast`
+                is off; teams with policies that expect it do so anyway.
             randomization: distributions of numbers that each episode draws for itself, by name,
                 such as `{"robot.mass": (0.9, 1.1)}`; see `rsoccer.randomization`. None for the same
                 numbers in all.
@@ -190,6 +201,7 @@ class Matches:
         self.randomization = dict(randomization or {})
         by_team = teams_differ(self._sensing, self._randomization.sensing)
         self.assignment = assign(self.task, controllers, worlds, by_team=by_team)
+        self._forecasting = self._begin_forecasts(controllers, forecasting)
         self.agents = tuple(self.task.robots[robot] for robot in self.assignment.learners)
         self._learners = Learners(self.assignment)
         self._rules = self.task.rules
@@ -450,11 +462,13 @@ class Matches:
 
         Raises:
             TypeError: something that is not a policy. Nothing has changed.
-            ValueError: an unknown robot, one that learns, a policy that does not fit the task, or
-                one that observes in the place of one that does not. Nothing has changed.
+            ValueError: an unknown robot, one that learns, a policy that does not fit the task, one
+                that observes in the place of one that does not, or one that expects a forecast in a
+                team without it. Nothing has changed.
         """
         were_read = self.assignment.reads_observations
-        changes.change_controllers(self.task, self.assignment, controllers)
+        forecasting = None if simulated(self._sensing) is None else self._forecasting
+        changes.change_controllers(self.task, self.assignment, controllers, forecasting)
         groups = self.assignment.groups
         self._commanding = [group for group in groups if isinstance(group.policy, CommandPolicy)]
         if self._all_begun and not were_read:
@@ -784,11 +798,30 @@ class Matches:
         """State of n worlds before their episodes begin, without senses."""
         return new_play(self.task, n, self._viewpoint, rng, self._threads)
 
+    def _begin_forecasts(
+        self, controllers: Controllers | None, asked: Sequence[str]
+    ) -> tuple[int, ...]:
+        """Let teams forecast that are asked to, and return all teams that forecast."""
+        found = forecasting_teams(self.task, self.assignment, asked)
+        sensing = simulated(self._sensing)
+        if sensing is None:
+            return ()
+        if may_forecast(sensing, self._randomization.sensing):
+            observers = self.assignment.observers.tolist()
+            return tuple(sorted({team_index(self.task, robot) for robot in observers}))
+        if found:
+            self._sensing = with_forecast(sensing)
+            self._randomization = Randomization.of(
+                self.randomization, self.task.config, self._sensing
+            )
+            self.assignment = assign(self.task, controllers, self.worlds, by_team=True)
+        return found
+
     def _new_senses(self, frame: Frame, rng: WorldRng) -> Senses | None:
         """Senses of n worlds before their episodes begin."""
         ranges = self._randomization.sensing
         simulator = self._simulator, self.worlds
-        return new_senses(self._sensing, *simulator, ranges, self._viewpoint, frame, rng)
+        return new_senses(self._sensing, *simulator, ranges, self._forecasting, frame, rng)
 
     def _state(self) -> MatchState:
         """References to all state of the matches."""

@@ -1,17 +1,19 @@
 """The senses of matches: of a model in Python, or of the simulator."""
 
+import json
+from collections.abc import Sequence
 from typing import Final
 
-import numpy as np
-
 from rsoccer._core import SENSING_NUMBERS, Sensing
-from rsoccer.frame import Frame
+from rsoccer.controllers import Assignment
+from rsoccer.frame import Frame, team_of
 from rsoccer.randomization import NumberRanges
 from rsoccer.rng import WorldRng
 from rsoccer.senses import ModelSenses, Senses, SensorModel
 from rsoccer.simulated_senses import SimulatedSenses, sensing_stepper
 from rsoccer.simulator_interface import Stepper
-from rsoccer.view import Viewpoint
+from rsoccer.task import Task
+from rsoccer.view import SIDES
 
 ON: Final = 0.5
 """Least value of a switch of `Sensing` that is on."""
@@ -31,7 +33,7 @@ def new_senses(
     stepper: Stepper,
     worlds: int,
     ranges: NumberRanges | None,
-    viewpoint: Viewpoint,
+    forecasting: tuple[int, ...],
     frame: Frame,
     rng: WorldRng,
 ) -> Senses | None:
@@ -42,7 +44,7 @@ def new_senses(
         stepper: the simulator.
         worlds: number of its worlds.
         ranges: ranges of the numbers of a `Sensing`.
-        viewpoint: the observers: only their teams forecast, unless each has cameras of its own.
+        forecasting: teams that forecast; both where each has cameras of its own.
         frame: frame of n worlds; copied.
         rng: (n,) random streams.
 
@@ -57,10 +59,62 @@ def new_senses(
         if _may_be_on("own_cameras", sensing, ranges):
             observing = (0, 1)
         elif teams_differ(sensing, ranges):
-            observing = tuple(np.unique(viewpoint.teams).tolist())
+            observing = forecasting
         own = sensing_stepper(stepper)
         return SimulatedSenses.new(own, worlds, ranges, observing, frame, rng)
     return ModelSenses.new(sensing, frame, rng)
+
+
+def forecasting_teams(task: Task, assignment: Assignment, asked: Sequence[str]) -> tuple[int, ...]:
+    """Return the teams that are asked to forecast, and those with policies that expect it.
+
+    Args:
+        task: the task that is played.
+        assignment: policies and their robots.
+        asked: names of teams.
+
+    Returns:
+        0 for blue and 1 for yellow.
+
+    Raises:
+        ValueError: a name that is no team's.
+    """
+    if isinstance(asked, str) or (unknown := sorted(set(asked) - set(SIDES), key=str)):
+        got = asked if isinstance(asked, str) else unknown
+        raise ValueError(f"forecasting: expected some of {list(SIDES)}, got {got!r}")
+    groups = [group for group in assignment.groups if group.policy.forecasts]
+    robots = [robot for group in groups for robot in group.robots.tolist()]
+    teams = {team_index(task, robot) for robot in robots} | {SIDES.index(name) for name in asked}
+    return tuple(sorted(teams))
+
+
+def team_index(task: Task, robot: int) -> int:
+    """Return the team of a robot, 0 for blue and 1 for yellow.
+
+    Args:
+        task: the task that is played.
+        robot: index of the robot.
+    """
+    return SIDES.index(team_of(task.robots[robot]))
+
+
+def with_forecast(sensing: Sensing) -> Sensing:
+    """Return senses with a forecast.
+
+    Args:
+        sensing: the senses.
+    """
+    return Sensing.from_json(json.dumps({**json.loads(sensing.to_json()), "forecast": 1.0}))
+
+
+def may_forecast(sensing: Sensing, ranges: NumberRanges | None) -> bool:
+    """Return whether all robots that observe forecast, in some episodes at least.
+
+    Args:
+        sensing: what robots know of the true state.
+        ranges: ranges of the numbers of a `Sensing`.
+    """
+    return _may_be_on("forecast", sensing, ranges)
 
 
 def teams_differ(sensing: SensorModel | Sensing | None, ranges: NumberRanges | None) -> bool:

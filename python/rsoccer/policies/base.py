@@ -107,6 +107,10 @@ class Policy(ABC):
     observes: Observes
     """Input that `act` gets; unused inputs are not computed."""
 
+    forecasts: bool = False
+    """Whether it expects the state in which its commands act, where robots see and obey late: its
+    team forecasts then, as with `Sensing.forecast`."""
+
     _built_for: tuple[SimConfig, tuple[str, ...]] | None = None
     """Configuration and sides of the task it depends on; None if it depends on no task."""
 

@@ -106,7 +106,7 @@ class Score:
     high: float
     """upper bound of the 95% interval"""
     sensing: str = ""
-    """senses of the robots, a preset's name; empty where they knew the true state"""
+    """senses of the robots, as in "rc2021, forecast=1"; empty where they knew the true state"""
 
 
 def read_metadata(metadata: Mapping[str, str]) -> tuple[np.float32, int]:

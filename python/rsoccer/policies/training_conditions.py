@@ -1,6 +1,7 @@
 """Senses and varied numbers of a training, in the metadata of a policy file.
 
-They tell what a policy has learned to cope with. They do not change how it plays.
+They tell what a policy has learned to cope with. They do not change how it plays, but one that has
+learned behind a forecast expects it: matches with senses give it to its team (`Policy.forecasts`).
 """
 
 from __future__ import annotations
@@ -60,6 +61,19 @@ def read_sensing(metadata: Mapping[str, str]) -> Sensing | str | None:
         return None if text is None else sensing_text.from_text(text)
     except ValueError as error:
         raise ValueError(f"metadata 'sensing': {error}") from error
+
+
+def has_forecast(metadata: Mapping[str, str]) -> bool:
+    """Return whether robots forecast in the training.
+
+    Args:
+        metadata: text by key.
+
+    Raises:
+        ValueError: senses that cannot be read.
+    """
+    sensing = read_sensing(metadata)
+    return sensing is not None and not isinstance(sensing, str) and sensing.forecast >= 0.5
 
 
 def read_randomization(metadata: Mapping[str, str]) -> dict[str, Any]:
