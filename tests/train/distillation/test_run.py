@@ -70,6 +70,25 @@ def test_the_recorded_delays_are_those_that_matches_draw(tmp_path: Path) -> None
     assert Network.load(distill(late)).randomization["sensing.command_delay"] == [0.0375, 0.1125]
 
 
+def test_a_forecast_knows_the_delay_of_its_matches(tmp_path: Path) -> None:
+    """So the student, which begins as the teacher, is nearer to it, by all but half a step."""
+    losses = {}
+    for sensing in ("forecast=1, tracker=0", "forecast=0, delay=0.001, tracker=0"):
+        late = args(
+            tmp_path / sensing,
+            command_delays=(0.1,),
+            history=1,
+            sensing=sensing,
+            minibatches=1,
+            worlds=64,
+        )
+        path = distill(late)
+        assert Network.load(path).forecasts == sensing.startswith("forecast=1")
+        losses[sensing] = read_progress(tmp_path / sensing)["loss"][0]
+    known, unknown = losses.values()
+    assert known < 0.7 * unknown, losses
+
+
 @pytest.mark.parametrize(
     ("changes", "message"),
     [

@@ -17,11 +17,14 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
+from rsoccer._core import Sensing
 from rsoccer.files import write_atomically
 from rsoccer.history import ObservationStack
 from rsoccer.matches import Matches
 from rsoccer.policies.network import Network
 from rsoccer.registry import make_task, task_with_options
+from rsoccer.senses import SensorModel
+from rsoccer.sources import make_sensing
 from rsoccer.task import Task
 from rsoccer.train.args import SETTINGS_FILE
 from rsoccer.train.distillation.hindsight import HindsightMatches, Samples
@@ -191,13 +194,21 @@ def _matches(args: DistillArgs, task: Task) -> Iterator[Matches]:
             int(seed),
             args.threads,
             autoreset="disabled",
-            sensing=args.sensing,
+            sensing=_with_delay(args.sensing, delay),
             randomization={
                 **args.randomization,
                 "sensing.command_delay": _drawn_delays(delay, task),
             },
             history=args.history,
         )
+
+
+def _with_delay(source: str | None, delay: float) -> Sensing | SensorModel | None:
+    """The senses of matches with a command delay, s: forecasts know its middle, as teams do."""
+    sensing = make_sensing(source)
+    if not isinstance(sensing, Sensing) or sensing.forecast < 0.5:
+        return sensing
+    return Sensing.from_json(json.dumps({**json.loads(sensing.to_json()), "command_delay": delay}))
 
 
 def _randomization(args: DistillArgs, task: Task) -> dict[str, Any]:

@@ -43,7 +43,7 @@ class DistillArgs:
     """numbers that each episode draws, by name, such as {"robot.mass": [0.9, 1.1]}"""
     command_delays: tuple[Delay, ...] = (0.0, 0.025, 0.05, 0.075, 0.1)
     """times that commands take, s, multiples of the control step; each in an equal share of the
-    matches, which draw it within half a step of it, or exactly 0"""
+    matches, which draw it within half a step of it, or exactly 0; a forecast knows the middle"""
     history: Count = 5
     """observations in a stacked one, with the actions between them"""
     seed: Natural = 0
