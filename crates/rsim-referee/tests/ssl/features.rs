@@ -202,14 +202,17 @@ fn the_first_robot_of_a_team_is_its_keeper() {
 }
 
 #[test]
-fn the_way_that_a_robot_has_dribbled_is_a_share_of_a_meter() {
-    for mut scene in views(B) {
+fn the_way_that_a_robot_has_dribbled_is_a_share_of_the_allowed_one() {
+    let half = |config: &mut RefereeConfig| config.dribble_distance = 0.5;
+    for (mut scene, share) in
+        views(B).map(|scene| (scene, 0.4)).chain(views_with(B, half).map(|scene| (scene, 0.8)))
+    {
         scene.game.in_play = true;
         scene.game.dribbler = Some(scene.index((Us, 1)));
         scene.ball(0.5, -0.3);
         scene.game.dribble_start = scene.sight().ball().position;
         scene.ball(0.5, 0.1);
-        expect_number(&scene, (Us, 1), "dribbled", 0.4);
+        expect_number(&scene, (Us, 1), "dribbled", share);
         expect_number(&scene, (Us, 2), "dribbled", 0.0);
         scene.game.in_play = false;
         expect_number(&scene, (Us, 1), "dribbled", 0.0);

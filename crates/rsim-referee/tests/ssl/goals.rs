@@ -41,6 +41,7 @@ fn a_goal_counts_and_the_others_kick_off() {
             scene.expect_bot(Goal, (Us, 2), (x + BEYOND, 0.2));
             assert_eq!((scene.events().len(), scene.score()), (1, (1, 0)));
             scene.expect_next(PrepareKickoff, Them, (0.0, 0.0));
+            assert_eq!(scene.game.wait_steps, scene.steps(2.0));
             scene.expect_fouls(0, 0);
         }
     }

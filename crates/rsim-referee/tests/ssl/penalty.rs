@@ -159,6 +159,28 @@ fn it_ends_after_ten_seconds() {
 }
 
 #[test]
+fn a_ball_that_nobody_kicks_is_not_in_play_after_the_time_of_a_free_kick() {
+    for mut scene in views(A) {
+        scene.penalty(Us);
+        scene.run(9.0, |scene| scene.game.command_steps == 360);
+        assert!(!scene.game.in_play);
+        let (x, _) = scene.penalty_mark(Us);
+        scene.kick((Us, 1), x + 0.2, 0.1);
+        assert!(scene.game.in_play);
+    }
+}
+
+#[test]
+fn a_kicker_just_behind_the_ball_stays_where_it_is() {
+    for mut scene in views(B) {
+        let (x, y) = scene.penalty_mark(Us);
+        scene.robot((Us, 1), x - 0.3, y);
+        scene.penalty(Us);
+        expect_near(scene.robot_at((Us, 1)).expect("present"), (x - 0.3, y));
+    }
+}
+
+#[test]
 fn a_foul_of_the_defenders_is_a_goal() {
     for mut scene in views(B) {
         scene.penalty(Us);
