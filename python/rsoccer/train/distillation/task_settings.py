@@ -37,7 +37,8 @@ DISTILL_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
     "SSLGoToBall-v0": {"samples": 300_000, **_FORECAST},
     "SSLContestedPossession-v0": {"samples": 1_200_000, **_FORECAST},
     "SSLStaticDefenders-v0": {"samples": 600_000, **_FORECAST},
-    "SSLPassEnduranceMulti-v1": {"samples": 600_000, "minibatches": 100, **_FORECAST},
+    "SSLDribbling-v0": {"samples": 900_000, **_FORECAST},
+    "SSLPassEnduranceMulti-v1": {"samples": 1_200_000, **_FORECAST},
 }
 """Values of settings by name, by the name of the task."""
 
