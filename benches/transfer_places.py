@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import Any, Final
 
 from rsoccer import BallModel, RobotModel, Sensing
+from rsoccer.policies import make_policy
 from rsoccer.registry import make_task
 from rsoccer.task import Task
 
@@ -153,6 +154,15 @@ TRIALS: Final = (
 """Tasks and policies to play, in this order."""
 
 
+def is_forecast(trial: Trial) -> bool:
+    """Return whether robots forecast: as the trial says, or since its policy expects it.
+
+    Args:
+        trial: what is played.
+    """
+    return trial.forecasts or make_policy(trial.policy, trial.task).forecasts
+
+
 def likeness(place: Place, trial: Trial) -> tuple[Task, Sensing]:
     """Return the task and the senses with which this package's simulator is like a place.
 
@@ -164,7 +174,7 @@ def likeness(place: Place, trial: Trial) -> tuple[Task, Sensing]:
     if place.ball and place.league == "ssl":
         options["ball"] = BallModel(**place.ball)
     numbers = dict(place.sensing) or {"command_delay": place.delay}
-    forecast: dict[str, Any] = {"forecast": 1.0} if trial.forecasts else {}
+    forecast: dict[str, Any] = {"forecast": 1.0} if is_forecast(trial) else {}
     return make_task(trial.task, **options), Sensing(**numbers, **forecast)
 
 
@@ -176,7 +186,7 @@ def as_played(place: Place, trial: Trial) -> tuple[Task, Sensing | None]:
         trial: what is played.
     """
     task = make_task(trial.task, **_robot(place))
-    if trial.forecasts:
+    if is_forecast(trial):
         return task, Sensing(command_delay=place.delay, forecast=1.0, **place.tracker)
     return task, Sensing(**place.tracker) if place.tracker else None
 

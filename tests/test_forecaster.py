@@ -1,5 +1,6 @@
 """The forecaster of the core, on its own and in matches."""
 
+import copy
 import pickle
 from typing import Any, cast
 
@@ -13,11 +14,16 @@ from rsoccer.arrays import Floats
 from rsoccer.controllers import Controllers
 from rsoccer.evaluate.episodes import LearnerPolicy
 from rsoccer.frame import Frame
+from rsoccer.human.driver import Driver, HumanPolicy
 from rsoccer.policies import make_policy
 from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
+from rsoccer.replay import Replay, ReplayError, record_replay
+from rsoccer.replay.evaluation import record_last_match
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 from rsoccer.tasks import SslSelfPlay, VssSelfPlay
+from rsoccer.train.clock import Clock
+from rsoccer.train.opponents.policy_mix import PolicyMix
 from tests.helpers import same
 
 DELAY = 0.1
@@ -540,6 +546,8 @@ def test_varied_numbers_stay_with_an_expected_forecast() -> None:
 def test_unknown_teams_are_asked_in_vain(asked: Any) -> None:  # noqa: ANN401
     with pytest.raises(ValueError, match=r"forecasting: expected some of \['blue', 'yellow'\]"):
         Matches("VSS-v0", sensing=Sensing(**LATE), forecasting=asked)
+    with pytest.raises(ValueError, match=r"forecasting: expected some of \['blue'\], got \['y"):
+        Matches("SSLGoToBall-v0", sensing=Sensing(**LATE), forecasting=["yellow"])
 
 
 def test_a_policy_that_expects_a_forecast_joins_no_team_without() -> None:
@@ -568,3 +576,66 @@ def test_an_evaluated_policy_that_expects_a_forecast_gets_it() -> None:
     expecting.forecasts = True
     forecast = Sensing("rc2021", command_delay=DELAY, forecast=1.0)
     assert score(expecting, late) == score(best, forecast) != score(best, late)
+
+
+@pytest.mark.parametrize("number", ["own_cameras", "forecast_others"])
+def test_both_teams_forecast_where_one_cannot_alone(number: str) -> None:
+    task, late = TASKS["VSSSelfPlay-v0"], f"command_delay={DELAY}, {number}=1"
+    expected = Matches(task, controllers={"yellow": Expecting(task)}, sensing=late)
+    given = Matches(task, controllers={"yellow": Turner(task)}, sensing=f"{late}, forecast=1")
+    for matches in (expected, given):
+        matches.reset()
+        for _ in range(6):
+            matches.step(np.ones((1, 3, matches.action_size), np.float32))
+    for team in (0, 1):
+        assert same(expected.play.known_to(team).rows, given.play.known_to(team).rows)
+    expected.change_controllers({"yellow": Expecting(task)})
+
+
+def test_copies_of_an_environment_go_on_to_forecast() -> None:
+    task = TASKS["VSSSelfPlay-v0"]
+    env = rsoccer.parallel_env(
+        task, controllers={"yellow": Expecting(task)}, sensing=Sensing(command_delay=DELAY)
+    )
+    env.reset(seed=0)
+    env.matches.change_controllers({"yellow": "scripted"})
+    copied = copy.deepcopy(env)
+    actions = {agent: np.ones(2, np.float32) for agent in env.agents}
+    for each in (env, copied):
+        each.step(actions)
+    ours, other = env.matches, copied.matches
+    assert ours.forecasting == other.forecasting == ("yellow",)
+    assert same(ours.play.known_to(1).rows, other.play.known_to(1).rows)
+
+
+def test_a_replay_goes_on_from_a_match_with_a_forecast() -> None:
+    task, late = "SSLStaticDefenders-v0", Sensing("rc2021", command_delay=0.05)
+    policies = {"blue": "best:robust"}
+    recorded = record_replay(task, policies, 3, 0.6, sensing=late, snapshot_interval=0.2)
+    replay = Replay.from_bytes(recorded.to_bytes())
+    assert replay.forecasting == ("blue",)
+    frame = max(replay.snapshots)
+    for controllers in ({"blue": "best"}, {"blue": "zero"}, policies):
+        branch = replay.branch(frame - 1, controllers)
+        assert branch.forecasting == ("blue",)
+        branch.step(np.zeros((1, 0, branch.action_size), np.float32))
+    plain = record_replay(task, {"blue": "best"}, 3, 0.6, sensing=late, snapshot_interval=0.2)
+    with pytest.raises(ReplayError, match="without forecasts for blue"):
+        plain.branch(max(plain.snapshots), policies)
+
+
+def test_the_replay_of_an_evaluation_shows_the_match_that_it_played() -> None:
+    task, late = "SSLStaticDefenders-v0", Sensing("rc2021", command_delay=0.05)
+    found = rsoccer.evaluate("best:robust", None, 1, 3, task=task, sensing=late)
+    replay = record_last_match("best:robust", None, 1, 3, task=task, sensing=late)
+    step = rsoccer.make_task(task).config.time_step
+    assert found.seconds.mean == pytest.approx((len(replay) - 1) * step)
+
+
+def test_policies_over_another_one_expect_what_it_expects() -> None:
+    task = rsoccer.make_task("SSLGoToBall-v0")
+    robust = make_policy("best:robust", task)
+    assert robust.forecasts
+    assert HumanPolicy(robust, ["blue_0"], Driver(task)).forecasts
+    assert PolicyMix(task, {"best:robust": 1.0}, Clock()).forecasts
+    assert not PolicyMix(task, {"best:robust": 1.0, "best": 1.0}, Clock()).forecasts

@@ -7,6 +7,7 @@ mutant takes a second. Where test programs have code of the library inside, all 
 """
 
 import argparse
+import hashlib
 import json
 import os
 import random
@@ -259,7 +260,7 @@ def main(arguments: list[str] | None = None) -> int:
     if options.sample:
         chosen = random.Random(1).sample(chosen, min(options.sample, len(chosen)))
     workshop = Workshop(FOLDER / f"{nth}-{shards}")
-    known = read_log(options.log) if options.log else {}
+    known = begin_log(options.log) if options.log else {}
     found: dict[Mutant, Outcome] = {}
     for mutant in chosen[nth::shards]:
         if mutant.name in known:
@@ -274,17 +275,31 @@ def main(arguments: list[str] | None = None) -> int:
     return 0
 
 
-def read_log(path: Path) -> dict[str, Outcome]:
-    """Return the outcomes in a log by the names of the mutants.
+def digest() -> str:
+    """Return a digest of the crate: names of mutants are places in its files."""
+    found = hashlib.sha256()
+    for path in sorted((ROOT / CRATE).rglob("*.rs")):
+        found.update(path.read_bytes())
+    return found.hexdigest()[:16]
+
+
+def begin_log(path: Path) -> dict[str, Outcome]:
+    """Begin a log, or return the outcomes in it by the names of the mutants.
 
     Args:
         path: the log; it need not exist.
 
     Raises:
-        ValueError: a line that is none of a log.
+        ValueError: a log of other code or tests, or a line that is none of a log.
     """
+    first = f"crate {digest()}"
+    if not path.exists():
+        path.write_text(f"{first}\n")
+    head, *lines = path.read_text().splitlines() or [""]
+    if head != first:
+        raise ValueError(f"log: expected {first!r} at its head, got {head!r}: name another file")
     found: dict[str, Outcome] = {}
-    for line in path.read_text().splitlines() if path.exists() else []:
+    for line in lines:
         match = re.fullmatch(r"(caught|timeout|missed|unviable) +[\d.]+ s (.+)", line)
         if match is None:
             raise ValueError(f"log: expected lines of outcome, time and name, got {line!r}")

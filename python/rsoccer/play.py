@@ -79,7 +79,7 @@ class Play:
 
         Teams with forecasts or cameras of their own know different things (`known_to`): then each
         robot is as its own team knows it, and the ball as blue does. A team without observers does
-        not forecast.
+        not forecast unless it is asked to (`Matches.forecasting`).
         """
         return self.frame if self.senses is None else self.senses.frame
 

@@ -17,8 +17,9 @@ from tools.referee_mutants import (
     Outcome,
     UnlinkedError,
     Workshop,
+    begin_log,
+    digest,
     main,
-    read_log,
     summary,
 )
 
@@ -179,8 +180,12 @@ def test_a_shard_of_the_chosen_mutants_is_judged_and_logged(
     assert main(["--shard", "1/2", "--only", "cards.rs:[0-4]", "--log", str(log)]) == 0
     assert judged == every[1:5:2]
     assert "| all | 2 | 0 | 2 | 0.0% |" in capsys.readouterr().out
-    lines = log.read_text().splitlines()
-    assert len(lines) == 2 and all(re.match(r"missed +\d+\.\d s crates/", line) for line in lines)
+    head, *lines = log.read_text().splitlines()
+    assert (
+        head == f"crate {digest()}"
+        and len(lines) == 2
+        and all(re.match(r"missed +\d+\.\d s crates/", line) for line in lines)
+    )
     judged.clear()
     assert main(["--shard", "1/2", "--log", str(log)]) == 0
     assert judged == every[5:], "those of the log are known"
@@ -192,7 +197,14 @@ def test_a_shard_of_the_chosen_mutants_is_judged_and_logged(
 
 def test_a_line_that_is_none_of_a_log_is_refused(tmp_path: Path) -> None:
     log = tmp_path / "log"
-    assert read_log(log) == {}
-    log.write_text("caught    1.5 s a.rs:1:1: replace a with b\nlost 3 s c\n")
+    assert begin_log(log) == {} == begin_log(log)
+    with log.open("a") as file:
+        file.write("caught    1.5 s a.rs:1:1: replace a with b\n")
+    assert begin_log(log) == {"a.rs:1:1: replace a with b": "caught"}
+    with log.open("a") as file:
+        file.write("lost 3 s c\n")
     with pytest.raises(ValueError, match="got 'lost 3 s c'"):
-        read_log(log)
+        begin_log(log)
+    log.write_text("crate of others\n")
+    with pytest.raises(ValueError, match="at its head, got 'crate of others'"):
+        begin_log(log)

@@ -46,27 +46,35 @@ pub(crate) trait Model: Sized + Clone + for<'py> FromPyObjectOwned<'py> {
 
     /// The model with some numbers replaced.
     fn with(mut self, numbers: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let mut given = Vec::new();
         for (key, value) in numbers.into_iter().flatten() {
             let key: String = key.extract()?;
-            self.set(&key, &|place| {
-                *place = value.extract().map_err(|_| {
-                    PyTypeError::new_err(format!("{key}: expected a number, got {value:?}"))
-                })?;
-                Ok(())
+            let number = value.extract().map_err(|_| {
+                PyTypeError::new_err(format!("{key}: expected a number, got {value:?}"))
             })?;
+            given.push((key, number));
         }
+        self.set_all(given)?;
         self.validate()?;
         Ok(self)
     }
 
+    /// Replaces numbers, whatever their order: those with a name of their own after those that two have together.
+    fn set_all(&mut self, mut numbers: Vec<(String, f32)>) -> PyResult<()> {
+        let is_of_both = |key: &str| Self::OF_BOTH.iter().any(|(both, _)| *both == key);
+        numbers.sort_by_key(|(key, _)| !is_of_both(key));
+        numbers.iter().try_for_each(|(key, value)| self.set(key, *value))
+    }
+
     /// Replaces a number, or two that have a name together; a `ValueError` if this kind of model does not
     /// have it.
-    fn set(&mut self, key: &str, write: &dyn Fn(&mut f32) -> PyResult<()>) -> PyResult<()> {
+    fn set(&mut self, key: &str, value: f32) -> PyResult<()> {
         if let Some((_, names)) = Self::OF_BOTH.iter().find(|(both, _)| *both == key) {
-            return names.iter().try_for_each(|name| self.set(name, write));
+            return names.iter().try_for_each(|name| self.set(name, value));
         }
         if let Some(place) = self.number_mut(key) {
-            return write(place);
+            *place = value;
+            return Ok(());
         }
         let names = Self::numbers().into_iter().map(|number| number.name);
         let valid: Vec<&str> = names.filter(|name| self.number(name).is_ok()).collect();
@@ -88,17 +96,16 @@ pub(crate) trait Model: Sized + Clone + for<'py> FromPyObjectOwned<'py> {
             return Self::decoded(text)?.with(None);
         };
         let mut model = Self::preset(&name)?;
+        let mut given = Vec::new();
         for (key, value) in numbers {
             let Some(number) = value.as_f64() else {
                 return Err(PyValueError::new_err(format!(
                     "{key}: expected a number, got {value}"
                 )));
             };
-            model.set(&key, &|place| {
-                *place = narrowed(number);
-                Ok(())
-            })?;
+            given.push((key, narrowed(number)));
         }
+        model.set_all(given)?;
         model.validate()?;
         Ok(model)
     }
@@ -156,6 +163,7 @@ fn of_text<T: Model>(text: &str) -> PyResult<T> {
         Some(name) => of_text(name)?,
         None => T::preset(OFF).or_else(|_| T::preset(text))?,
     };
+    let mut given = Vec::new();
     for part in parts {
         let pair = part.split_once('=').map(|(key, value)| (key.trim(), value.trim()));
         let Some((key, Ok(number))) = pair.map(|(key, value)| (key, value.parse::<f64>())) else {
@@ -163,11 +171,9 @@ fn of_text<T: Model>(text: &str) -> PyResult<T> {
                 "expected number=value after the name, as in 'rc2021, delay=0.1', got {part:?} in {text:?}"
             )));
         };
-        model.set(key, &|place| {
-            *place = narrowed(number);
-            Ok(())
-        })?;
+        given.push((key.to_owned(), narrowed(number)));
     }
+    model.set_all(given)?;
     model.validate()?;
     Ok(model)
 }

@@ -172,6 +172,7 @@ class ReplayRecorder:
             names=(settings.blue or "BLUE", settings.yellow or "YELLOW"),
             sensing=sensing_text.recordable(session.arena.sensing),
             randomization={},
+            forecasting=(),
             history=1,
             config=config,
             rows=rows,

@@ -38,7 +38,8 @@ class StandIns:
             seed: seed of their random numbers.
 
         Raises:
-            ValueError: an unknown policy, or one that does not fit the match.
+            ValueError: an unknown policy, one that does not fit the match, or one that expects a
+                forecast.
         """
         given = (blue, yellow)
         controllers: Controllers = {
@@ -46,6 +47,12 @@ class StandIns:
             for team, name in zip(TEAM_NAMES, given, strict=True)
         }
         assignment = assign(task, controllers, 1)
+        for group in assignment.groups:
+            if group.policy.forecasts:
+                raise ValueError(
+                    "policy: expected one that has learned without a forecast, which a served "
+                    f"match has not, got {type(group.policy).__name__}"
+                )
         self.observers: list[int] = assignment.observers.tolist()
         self._plays = tuple(name is not None for name in given)
         self._task = task

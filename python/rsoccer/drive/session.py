@@ -19,6 +19,7 @@ from rsoccer.drive.simulator import UntouchedNetwork
 from rsoccer.lineup import lineup
 from rsoccer.matches import Matches, Outcome
 from rsoccer.play import Play
+from rsoccer.policies import make_policy
 from rsoccer.policies.base import Policy
 from rsoccer.rules.base import Restart, Rule
 from rsoccer.rules.referee import RefereeRule
@@ -82,8 +83,14 @@ class Session:
 
         Raises:
             OSError: a port is taken, or an address is not one of this machine.
-            ValueError: a policy that does not fit the task, or settings that do not.
+            ValueError: a policy that does not fit the task, one that has learned behind a forecast
+                without a delay, or settings that do not fit.
         """
+        if not delay and make_policy(policy, task).forecasts:
+            raise ValueError(
+                "delay: expected that of the robots, in s, for a policy that has learned behind a "
+                f"forecast, got {delay:g}; `rsoccer identify` measures it"
+            )
         sensing = forecasting(delay)
         config = task.config.with_sensing(sensing)
         rules = task.referee_config if isinstance(task, Match) else None

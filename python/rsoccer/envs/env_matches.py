@@ -66,7 +66,9 @@ class EnvMatches(Matches):
         super().change_controllers(controllers)
         before: Controllers = self._settings.get("controllers") or {}
         by_robot = resolve(self.task, {**resolve(self.task, before), **_policies_by_robot(self)})
-        self._settings = {**self._settings, "controllers": by_robot}
+        # Teams go on as they do, also where the new policies expect no forecast.
+        kept = {"controllers": by_robot, "forecasting": self.forecasting}
+        self._settings = {**self._settings, **kept}
 
     def with_seed(self, seed: int) -> EnvMatches:
         """Return new matches with the same arguments and another seed.

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rsoccer.arrays import Doubles, Floats, Mask
-from rsoccer.controllers import Controller, resolve
+from rsoccer.controllers import Controller, Controllers, resolve
 from rsoccer.frame import team_of
 from rsoccer.game import BLUE, NOBODY, YELLOW, EventKind
 from rsoccer.matches import Matches, Outcome
@@ -145,17 +145,11 @@ class EpisodeRunner:
             autoreset="disabled",
             simulator=self.simulator,
             sensing=self.sensing,
-            forecasting=self._forecasting(),
+            forecasting=forecasting_for(self.task, self.controllers, self.policy),
             randomization=self.randomization,
         )
         with closed_after(matches, self.simulator):
             return self._play(matches, seed)
-
-    def _forecasting(self) -> list[str]:
-        """Teams of the learners if the policy in their place expects a forecast."""
-        controllers = resolve(self.task, self.controllers)
-        learners = [robot for robot, each in controllers.items() if isinstance(each, Learn)]
-        return sorted({team_of(robot) for robot in learners}) if self.policy.forecasts else []
 
     def _play(self, matches: Matches, seed: int) -> _Batch:
         """Results of matches that have not begun."""
@@ -234,6 +228,19 @@ class _Team:
     """(n,) random streams"""
     memory: Memory
     """(n, ...) arrays of the policy"""
+
+
+def forecasting_for(task: Task, controllers: Controllers | None, policy: Policy) -> tuple[str, ...]:
+    """Return the teams that forecast for a policy in the place of the learners.
+
+    Args:
+        task: the task.
+        controllers: controllers of the matches, which leave some robots to learners.
+        policy: the policy.
+    """
+    resolved = resolve(task, controllers)
+    learners = [robot for robot, each in resolved.items() if isinstance(each, Learn)]
+    return tuple(sorted({team_of(robot) for robot in learners})) if policy.forecasts else ()
 
 
 class LearnerPolicy:

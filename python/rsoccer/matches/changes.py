@@ -109,7 +109,7 @@ def change_controllers(
     task: Task,
     assignment: Assignment,
     controllers: Controllers,
-    forecasting: tuple[int, ...] | None = None,
+    forecasting: tuple[str, ...] | None = None,
 ) -> None:
     """Replace policies of robots that do not learn; their memory begins anew.
 
@@ -117,8 +117,8 @@ def change_controllers(
         task: the task that is played.
         assignment: controllers of the matches, which change.
         controllers: policies by robot, team or "all"; others stay.
-        forecasting: teams that forecast, 0 for blue and 1 for yellow; None where robots know the
-            true state or have senses of another kind.
+        forecasting: teams that forecast; None where robots know the true state or have senses of
+            another kind.
 
     Raises:
         TypeError: something that is not a policy.
@@ -192,12 +192,12 @@ def _policy(
 
 
 def _check_forecast(
-    task: Task, group: PolicyGroup, policy: Policy, forecasting: tuple[int, ...] | None
+    task: Task, group: PolicyGroup, policy: Policy, forecasting: tuple[str, ...] | None
 ) -> None:
     """Check that the team of a new policy forecasts if the policy expects it."""
     teams = {team_of(task.robots[robot]) for robot in group.robots}
     if policy.forecasts and forecasting is not None:
-        without = sorted(team for team in teams if SIDES.index(team) not in forecasting)
+        without = sorted(teams - set(forecasting))
         if without:
             raise ValueError(
                 f"controllers: expected a policy without forecasts for {', '.join(without)}, "

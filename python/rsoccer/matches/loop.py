@@ -29,12 +29,13 @@ from rsoccer.matches.match_state import MatchState
 from rsoccer.matches.outcome import Episodes, Outcome
 from rsoccer.matches.paused import PausedWorlds
 from rsoccer.matches.sensing import (
+    ON,
     forecasting_teams,
     may_forecast,
     new_senses,
     simulated,
-    team_index,
     teams_differ,
+    teams_of,
     with_forecast,
 )
 from rsoccer.matches.starts import Starts
@@ -108,6 +109,8 @@ class Matches:
         observation_high: (o,) upper bounds.
         sensing: the `Sensing`, or what another sensor model was given as; None if robots know the
             true state.
+        forecasting: teams, "blue" or "yellow", that forecast although `sensing` does not: those
+            that were asked to, and those with policies that expect it.
         randomization: distributions of numbers that each episode draws, by name.
         play: state of all worlds, to be read only: frames, score, events of the last step.
 
@@ -201,7 +204,7 @@ class Matches:
         self.randomization = dict(randomization or {})
         by_team = teams_differ(self._sensing, self._randomization.sensing)
         self.assignment = assign(self.task, controllers, worlds, by_team=by_team)
-        self._forecasting = self._begin_forecasts(controllers, forecasting)
+        self.forecasting = self._begin_forecasts(controllers, forecasting)
         self.agents = tuple(self.task.robots[robot] for robot in self.assignment.learners)
         self._learners = Learners(self.assignment)
         self._rules = self.task.rules
@@ -467,8 +470,8 @@ class Matches:
                 team without it. Nothing has changed.
         """
         were_read = self.assignment.reads_observations
-        forecasting = None if simulated(self._sensing) is None else self._forecasting
-        changes.change_controllers(self.task, self.assignment, controllers, forecasting)
+        teams = self._forecasting_teams()
+        changes.change_controllers(self.task, self.assignment, controllers, teams)
         groups = self.assignment.groups
         self._commanding = [group for group in groups if isinstance(group.policy, CommandPolicy)]
         if self._all_begun and not were_read:
@@ -798,30 +801,41 @@ class Matches:
         """State of n worlds before their episodes begin, without senses."""
         return new_play(self.task, n, self._viewpoint, rng, self._threads)
 
-    def _begin_forecasts(
-        self, controllers: Controllers | None, asked: Sequence[str]
-    ) -> tuple[int, ...]:
-        """Let teams forecast that are asked to, and return all teams that forecast."""
-        found = forecasting_teams(self.task, self.assignment, asked)
+    def _forecasting_teams(self) -> tuple[str, ...] | None:
+        """All teams that forecast; None where policies do not need it."""
         sensing = simulated(self._sensing)
         if sensing is None:
+            return None
+        if not may_forecast(sensing, self._randomization.sensing):
             return ()
-        if may_forecast(sensing, self._randomization.sensing):
-            observers = self.assignment.observers.tolist()
-            return tuple(sorted({team_index(self.task, robot) for robot in observers}))
-        if found:
-            self._sensing = with_forecast(sensing)
-            self._randomization = Randomization.of(
-                self.randomization, self.task.config, self._sensing
-            )
-            self.assignment = assign(self.task, controllers, self.worlds, by_team=True)
-        return found
+        is_of_all = not self.play.teams_differ or sensing.own_cameras >= ON
+        everyone = teams_of(self.task.robots)
+        return everyone if is_of_all else self.forecasting or self._observing_teams()
+
+    def _begin_forecasts(
+        self, controllers: Controllers | None, asked: Sequence[str]
+    ) -> tuple[str, ...]:
+        """Let teams forecast that are asked to or whose policies expect it, and return them."""
+        teams = forecasting_teams(self.task, self.assignment, asked)
+        sensing, ranges = simulated(self._sensing), self._randomization.sensing
+        if sensing is None or may_forecast(sensing, ranges) or not teams:
+            return ()
+        self._sensing = with_forecast(sensing)
+        self._randomization = Randomization.of(self.randomization, self.task.config, self._sensing)
+        by_team = teams_differ(self._sensing, self._randomization.sensing)
+        self.assignment = assign(self.task, controllers, self.worlds, by_team=by_team)
+        return teams if by_team else teams_of(self.task.robots)
 
     def _new_senses(self, frame: Frame, rng: WorldRng) -> Senses | None:
         """Senses of n worlds before their episodes begin."""
         ranges = self._randomization.sensing
         simulator = self._simulator, self.worlds
-        return new_senses(self._sensing, *simulator, ranges, self._forecasting, frame, rng)
+        teams = self.forecasting or self._observing_teams()
+        return new_senses(self._sensing, *simulator, ranges, teams, frame, rng)
+
+    def _observing_teams(self) -> tuple[str, ...]:
+        """Teams with robots that observe."""
+        return teams_of(self.task.robots[robot] for robot in self.assignment.observers)
 
     def _state(self) -> MatchState:
         """References to all state of the matches."""

@@ -1,7 +1,7 @@
 """The senses of matches: of a model in Python, or of the simulator."""
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Final
 
 from rsoccer._core import SENSING_NUMBERS, Sensing
@@ -33,7 +33,7 @@ def new_senses(
     stepper: Stepper,
     worlds: int,
     ranges: NumberRanges | None,
-    forecasting: tuple[int, ...],
+    forecasting: tuple[str, ...],
     frame: Frame,
     rng: WorldRng,
 ) -> Senses | None:
@@ -59,13 +59,13 @@ def new_senses(
         if _may_be_on("own_cameras", sensing, ranges):
             observing = (0, 1)
         elif teams_differ(sensing, ranges):
-            observing = forecasting
+            observing = tuple(SIDES.index(team) for team in forecasting)
         own = sensing_stepper(stepper)
         return SimulatedSenses.new(own, worlds, ranges, observing, frame, rng)
     return ModelSenses.new(sensing, frame, rng)
 
 
-def forecasting_teams(task: Task, assignment: Assignment, asked: Sequence[str]) -> tuple[int, ...]:
+def forecasting_teams(task: Task, assignment: Assignment, asked: Sequence[str]) -> tuple[str, ...]:
     """Return the teams that are asked to forecast, and those with policies that expect it.
 
     Args:
@@ -73,29 +73,25 @@ def forecasting_teams(task: Task, assignment: Assignment, asked: Sequence[str]) 
         assignment: policies and their robots.
         asked: names of teams.
 
-    Returns:
-        0 for blue and 1 for yellow.
-
     Raises:
-        ValueError: a name that is no team's.
+        ValueError: a name that is no team's, or that of a team without robots.
     """
-    if isinstance(asked, str) or (unknown := sorted(set(asked) - set(SIDES), key=str)):
+    teams = list(teams_of(task.robots))
+    if isinstance(asked, str) or (unknown := sorted(set(asked) - set(teams), key=str)):
         got = asked if isinstance(asked, str) else unknown
-        raise ValueError(f"forecasting: expected some of {list(SIDES)}, got {got!r}")
+        raise ValueError(f"forecasting: expected some of {teams}, got {got!r}")
     groups = [group for group in assignment.groups if group.policy.forecasts]
-    robots = [robot for group in groups for robot in group.robots.tolist()]
-    teams = {team_index(task, robot) for robot in robots} | {SIDES.index(name) for name in asked}
-    return tuple(sorted(teams))
+    robots = [task.robots[robot] for group in groups for robot in group.robots.tolist()]
+    return tuple(sorted({*teams_of(robots), *asked}))
 
 
-def team_index(task: Task, robot: int) -> int:
-    """Return the team of a robot, 0 for blue and 1 for yellow.
+def teams_of(robots: Iterable[str]) -> tuple[str, ...]:
+    """Return the teams of some robots.
 
     Args:
-        task: the task that is played.
-        robot: index of the robot.
+        robots: their names.
     """
-    return SIDES.index(team_of(task.robots[robot]))
+    return tuple(sorted({team_of(robot) for robot in robots}))
 
 
 def with_forecast(sensing: Sensing) -> Sensing:
@@ -135,4 +131,4 @@ def teams_differ(sensing: SensorModel | Sensing | None, ranges: NumberRanges | N
 def _may_be_on(name: str, sensing: Sensing, ranges: NumberRanges | None) -> bool:
     """Whether a switch is on, or may be in an episode that draws it."""
     drawn = () if ranges is None else sum((columns for columns, _ in ranges.drawn), ())
-    return getattr(sensing, name) > 0.0 or SENSING_NUMBERS.index(name) in drawn
+    return getattr(sensing, name) >= ON or SENSING_NUMBERS.index(name) in drawn

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Final, Self
 
 import numpy as np
 
-from rsoccer.policies import policy_file
+from rsoccer.policies import policy_file, training_conditions
 from rsoccer.policies.fits import check_fits
 from rsoccer.policies.heads import Head
 from rsoccer.policies.held_actions import HeldActions
@@ -67,6 +67,7 @@ class OnnxPolicy(HeldActions):
         self.action_repeat = 1
         if self._own:
             _, self.action_repeat = policy_file.read_metadata(self.metadata)
+            self.forecasts = training_conditions.has_forecast(self.metadata)
         self.action_size = self._probed_size()
         if self._own:
             self.stack = policy_file.read_stack(

@@ -127,6 +127,7 @@ def _replay(layout: WireLayout, survey: Survey, frames: _Frames) -> Replay:
         names=(blue or "BLUE", yellow or "YELLOW"),
         sensing=None,
         randomization={},
+        forecasting=(),
         history=1,
         config=config,
         rows=rows,

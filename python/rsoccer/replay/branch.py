@@ -52,8 +52,8 @@ def branch(
 
     Raises:
         ReplayError: no such frame, a frame at which the match has ended, a recording that cannot be
-            played again up to it, another version of the physics, or a task or senses that have to
-            be given.
+            played again up to it, another version of the physics, a task or senses that have to be
+            given, or a policy that expects a forecast in a team that had none.
     """
     episode = _episode(replay, frame)
     try:
@@ -68,10 +68,17 @@ def branch(
             controllers=controllers,
             autoreset="disabled",
             sensing=sensing,
+            forecasting=replay.forecasting,
             randomization=replay.randomization,
             history=replay.history,
         )
         with closed_on_error(matches):
+            more = sorted(set(matches.forecasting) - set(replay.forecasting))
+            if state is not None and more:
+                raise ReplayError(
+                    f"controllers: expected policies without forecasts for {', '.join(more)}, as "
+                    "the recording has none for that team"
+                )
             if state is None:
                 _place(matches, replay, frame)
             else:

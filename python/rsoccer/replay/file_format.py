@@ -8,6 +8,7 @@ Keys of the header:
 | `task`, `options`, `controllers`, `names` | as the fields of `Replay` |
 | `sensing` | JSON of `Sensing.to_json`, or "module:name" of a model; absent if none is named |
 | `randomization` | distributions of numbers by name, as `Matches` takes them; absent if none |
+| `forecasting` | teams that forecast although `sensing` does not; absent if none does |
 | `history` | observations in each observation of the learners; absent if 1 |
 | `config` | the configuration, JSON of `SimConfig.to_json` |
 | `columns` | names of the stored columns: `ball`, `robot`, `command`, `referee`, `sensed` |
@@ -118,6 +119,8 @@ def _conditions(replay: Recorded) -> dict[str, Any]:
         conditions["sensing"] = sensing_text.to_text(replay.sensing)
     if replay.randomization:
         conditions["randomization"] = randomization.written(replay.randomization)
+    if replay.forecasting:
+        conditions["forecasting"] = list(replay.forecasting)
     if replay.history > 1:
         conditions["history"] = replay.history
     return conditions
@@ -175,6 +178,7 @@ def from_bytes(content: bytes) -> Recorded:
         names=header_values.team_names(header.get("names")),
         sensing=header_values.sensing(header.get("sensing")),
         randomization=header_values.randomization(header.get("randomization", {}), config),
+        forecasting=header_values.teams("forecasting", header.get("forecasting", [])),
         history=header_values.history(header.get("history", 1)),
         config=config,
         rows=rows,

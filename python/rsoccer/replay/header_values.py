@@ -204,6 +204,22 @@ def options(value: object) -> dict[str, Any] | None:
     return value
 
 
+def teams(name: str, value: object) -> tuple[str, ...]:
+    """Return names of teams.
+
+    Args:
+        name: name of the value, for errors.
+        value: a list of "blue" and "yellow".
+
+    Raises:
+        ReplayError: another value.
+    """
+    found = texts(name, value)
+    if set(found) - set(SIDES):
+        raise ReplayError(f"{name}: expected some of {list(SIDES)}, got {value!s:.80}")
+    return found
+
+
 def sensing(value: object) -> Sensing | str | None:
     """Return senses.
 

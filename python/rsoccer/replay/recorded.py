@@ -57,6 +57,8 @@ class Recorded:
     senses, and for a model that is an object"""
     randomization: Ranges
     """distributions of numbers that each episode drew, by name; empty for none"""
+    forecasting: tuple[str, ...]
+    """teams that forecast although `sensing` does not"""
     history: int
     """observations in each observation of the learners, as for `Matches`"""
     config: SimConfig

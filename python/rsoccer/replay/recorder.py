@@ -188,6 +188,7 @@ class Recorder:
             names=self._names,
             sensing=sensing_text.recordable(self.matches.sensing),
             randomization=self.matches.randomization,
+            forecasting=self.matches.forecasting,
             history=self.matches.history,
             config=task.config,
             rows=np.stack(self._rows),

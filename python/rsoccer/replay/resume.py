@@ -67,6 +67,7 @@ def resume(
             autoreset="disabled",
             simulator=simulator,
             sensing=sensing,
+            forecasting=replay.forecasting,
             randomization=replay.randomization if randomization is None else randomization,
             history=replay.history,
         )

@@ -159,8 +159,11 @@ impl Tracker {
         });
         if ball.held.is_none() {
             ball.take(elapsed, balls, &self.filters.ball);
-            let motion = |robot: usize| robots[robot].motion();
-            ball.held = Held::find(ball.track.position, motion, beams, sensing);
+            // Where a ball was seen that cannot be this one, neither place is believed yet.
+            if balls.is_empty() || ball.refused == 0 {
+                let motion = |robot: usize| robots[robot].motion();
+                ball.held = Held::find(ball.track.position, motion, beams, sensing);
+            }
         }
         if let Some(held) = ball.held {
             let (position, velocity) = held.motion(&robots[held.robot].motion());

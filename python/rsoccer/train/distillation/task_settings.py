@@ -37,7 +37,8 @@ DISTILL_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
     "SSLGoToBall-v0": {"samples": 300_000, **_FORECAST},
     "SSLContestedPossession-v0": {"samples": 1_200_000, **_FORECAST},
     "SSLStaticDefenders-v0": {"samples": 600_000, **_FORECAST},
-    "SSLDribbling-v0": {"samples": 900_000, **_FORECAST},
+    # Three times as many samples make it worse: 4.7 gates with the senses instead of 5.3.
+    "SSLDribbling-v0": {"samples": 300_000, "minibatches": 60, **_FORECAST},
     "SSLPassEnduranceMulti-v1": {"samples": 1_200_000, **_FORECAST},
 }
 """Values of settings by name, by the name of the task."""
