@@ -82,6 +82,13 @@ def test_robots_of_vsss_wait_for_the_start() -> None:
     session.close()
 
 
+def test_a_policy_that_expects_a_forecast_needs_the_delay() -> None:
+    link = ServerLink()
+    with pytest.raises(ValueError, match=r"delay: expected that of the robots.*got 0;"):
+        session_of(link, "SSLGoToBall-v0", "ssl-simulation", "best:robust")
+    assert link.is_closed
+
+
 def test_a_policy_that_does_not_fit_closes_the_connection() -> None:
     link = ServerLink()
     with pytest.raises(ValueError, match="nobody"):

@@ -86,16 +86,16 @@ class Session:
             ValueError: a policy that does not fit the task, one that has learned behind a forecast
                 without a delay, or settings that do not fit.
         """
-        if not delay and make_policy(policy, task).forecasts:
-            raise ValueError(
-                "delay: expected that of the robots, in s, for a policy that has learned behind a "
-                f"forecast, got {delay:g}; `rsoccer identify` measures it"
-            )
         sensing = forecasting(delay)
         config = task.config.with_sensing(sensing)
         rules = task.referee_config if isinstance(task, Match) else None
         self.connection = Connection(config, settings, rules=rules, link=link, clock=clock)
         try:
+            if not delay and make_policy(policy, task).forecasts:
+                raise ValueError(
+                    "delay: expected that of the robots, in s, for a policy that has learned "
+                    f"behind a forecast, got {delay:g}; `rsoccer identify` measures it"
+                )
             opponent: Controller | None = STANDING if task.config.n_yellow else None
             controllers = lineup(task, policy, opponent, "blue")
             if isinstance(task, Match) and settings.referee != "ignore":

@@ -78,7 +78,9 @@ def load_best(task: Task, detail: str | None = None) -> Network:
     variant, mode = _variant_and_mode(detail)
     name = BEST if variant is None else f"{BEST}:{variant}"
     files = list_trained(variant)
-    source = task.name if task.name in files else SKILLS.get(task.name)
+    # Policies with a history do not fit other tasks, so skills are those on the true state.
+    skills = SKILLS.get(task.name) if variant is None else None
+    source = task.name if task.name in files else skills
     if source in files:
         network = Network.load(files[source], mode)
         try:

@@ -1,7 +1,7 @@
 """Recommended settings of a distillation by task: those of the policies `best:robust`.
 
 Senses are those of a tournament, and numbers of robots and ball vary, by about what teams measure
-of their own. In the VSSS league commands take up to 112.5 ms, which the policy is not told: a
+of their own. In the VSSS league commands take up to 112.5 ms, which the policy does not know: a
 history of 5 has the actions of the last two decisions of 75 ms, which are still on their way at the
 longest delay. In the SSL the policy learns behind a forecast that knows the delay of its matches to
 half a control step, and reads the newest observation alone. Without a forecast a ball at the
@@ -38,7 +38,7 @@ DISTILL_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
     "SSLContestedPossession-v0": {"samples": 1_200_000, **_FORECAST},
     "SSLStaticDefenders-v0": {"samples": 600_000, **_FORECAST},
     # Three times as many samples make it worse: 4.7 gates with the senses instead of 5.3.
-    "SSLDribbling-v0": {"samples": 300_000, "minibatches": 60, **_FORECAST},
+    "SSLDribbling-v0": {"samples": 300_000, **_FORECAST},
     "SSLPassEnduranceMulti-v1": {"samples": 1_200_000, **_FORECAST},
 }
 """Values of settings by name, by the name of the task."""
