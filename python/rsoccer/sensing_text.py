@@ -53,6 +53,20 @@ def from_text(text: str) -> Sensing | str:
     return text
 
 
+def with_number(sensing: Sensing, name: str, value: float) -> Sensing:
+    """Return senses with another value of a number.
+
+    Args:
+        sensing: the senses.
+        name: name of the number.
+        value: the value.
+
+    Raises:
+        ValueError: a value out of range.
+    """
+    return Sensing.from_json(json.dumps({**json.loads(sensing.to_json()), name: value}))
+
+
 def describe(sensing: Sensing | str) -> str:
     """Return senses in a few words: the preset with the numbers that differ, or "module:name".
 

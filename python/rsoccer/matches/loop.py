@@ -36,7 +36,6 @@ from rsoccer.matches.sensing import (
     simulated,
     teams_differ,
     teams_of,
-    with_forecast,
 )
 from rsoccer.matches.starts import Starts
 from rsoccer.new_play import new_play, new_viewpoint
@@ -47,6 +46,7 @@ from rsoccer.registry import resolve_task
 from rsoccer.rng import Seeds, WorldRng, next_streams
 from rsoccer.rules.base import Restart, begin, judge, select
 from rsoccer.senses import Senses
+from rsoccer.sensing_text import with_number
 from rsoccer.simulator_interface import close
 from rsoccer.sources import (
     SensingSource,
@@ -820,7 +820,7 @@ class Matches:
         sensing, ranges = simulated(self._sensing), self._randomization.sensing
         if sensing is None or may_forecast(sensing, ranges) or not teams:
             return ()
-        self._sensing = with_forecast(sensing)
+        self._sensing = with_number(sensing, "forecast", 1.0)
         self._randomization = Randomization.of(self.randomization, self.task.config, self._sensing)
         by_team = teams_differ(self._sensing, self._randomization.sensing)
         self.assignment = assign(self.task, controllers, self.worlds, by_team=by_team)

@@ -1,6 +1,5 @@
 """The senses of matches: of a model in Python, or of the simulator."""
 
-import json
 from collections.abc import Iterable, Sequence
 from typing import Final
 
@@ -92,15 +91,6 @@ def teams_of(robots: Iterable[str]) -> tuple[str, ...]:
         robots: their names.
     """
     return tuple(sorted({team_of(robot) for robot in robots}))
-
-
-def with_forecast(sensing: Sensing) -> Sensing:
-    """Return senses with a forecast.
-
-    Args:
-        sensing: the senses.
-    """
-    return Sensing.from_json(json.dumps({**json.loads(sensing.to_json()), "forecast": 1.0}))
 
 
 def may_forecast(sensing: Sensing, ranges: NumberRanges | None) -> bool:

@@ -116,7 +116,8 @@ impl PositionTrack {
         self.position += (detected - self.position) * part;
     }
 
-    /// Takes in a detection; `rate` is that of [`Filter::rate`], 1/s. One that is not expected tells of a push since then, in whose middle the velocity changed.
+    /// Takes in a detection; `rate` is that of [`Filter::rate`], 1/s. One that is not expected tells of a push
+    /// since the last one, in whose middle the velocity changed.
     pub(super) fn update(&mut self, detected: Vector, rate: f32, filter: &Filter) {
         let difference = detected - self.position;
         let gain = filter.gain(self.count);

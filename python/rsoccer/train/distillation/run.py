@@ -24,6 +24,7 @@ from rsoccer.matches import Matches
 from rsoccer.policies.network import Network
 from rsoccer.registry import make_task, task_with_options
 from rsoccer.senses import SensorModel
+from rsoccer.sensing_text import with_number
 from rsoccer.sources import make_sensing
 from rsoccer.task import Task
 from rsoccer.train.args import SETTINGS_FILE
@@ -208,7 +209,7 @@ def _with_delay(source: str | None, delay: float) -> Sensing | SensorModel | Non
     sensing = make_sensing(source)
     if not isinstance(sensing, Sensing) or sensing.forecast < 0.5:
         return sensing
-    return Sensing.from_json(json.dumps({**json.loads(sensing.to_json()), "command_delay": delay}))
+    return with_number(sensing, "command_delay", delay)
 
 
 def _randomization(args: DistillArgs, task: Task) -> dict[str, Any]:
