@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from rsoccer.arrays import Doubles, Floats, Mask
 from rsoccer.controllers import Controller, Controllers, resolve
-from rsoccer.frame import team_of
 from rsoccer.game import BLUE, NOBODY, YELLOW, EventKind
 from rsoccer.matches import Matches, Outcome
+from rsoccer.matches.sensing import teams_of
 from rsoccer.play import Play
 from rsoccer.policies.base import MatchState, Memory, Policy, PolicyInput, require_actions
 from rsoccer.randomization import Ranges
@@ -240,7 +240,7 @@ def forecasting_for(task: Task, controllers: Controllers | None, policy: Policy)
     """
     resolved = resolve(task, controllers)
     learners = [robot for robot, each in resolved.items() if isinstance(each, Learn)]
-    return tuple(sorted({team_of(robot) for robot in learners})) if policy.forecasts else ()
+    return teams_of(learners) if policy.forecasts else ()
 
 
 class LearnerPolicy:
