@@ -14,11 +14,17 @@ from rsoccer.train.task_settings import recommended_settings
 GROUP: Final = "robust"
 SHIPPED_GROUP: Final = "robust-shipped"
 
-TASKS: Final = (
-    *("VSS-v0", "VSSSelfPlay-v0", "SSLGoToBall-v0"),
-    *("SSLContestedPossession-v0", "SSLPassEnduranceMulti-v1"),
-)
-"""Tasks that are learned in the study."""
+SAMPLES: Final[dict[str, int]] = {
+    "VSS-v0": 5_000_000,
+    "VSSSelfPlay-v0": 10_000_000,
+    "SSLGoToBall-v0": 3_000_000,
+    "SSLContestedPossession-v0": 10_000_000,
+    "SSLPassEnduranceMulti-v1": 10_000_000,
+}
+"""Tasks that are learned in the study, and the samples of each run.
+
+At most those of the recommended settings: the study compares trainings at equal cost.
+"""
 SHIPPED_TASKS: Final = (
     *("SSLGoToBall-v0", "VSS-v0", "SSLContestedPossession-v0", "SSLStaticDefenders-v0"),
     *("SSLDribbling-v0", "SSLPassEnduranceMulti-v1", "VSSSelfPlay-v0"),
@@ -76,8 +82,8 @@ def experiments(seeds: int) -> tuple[Experiment, ...]:
         seeds: Seeds of each experiment.
     """
     found: list[Experiment] = []
-    for task in TASKS:
-        recommended = recommended_settings(task)
+    for task, samples in SAMPLES.items():
+        recommended = {**recommended_settings(task), "samples": samples}
         with_variation = {**SENSES, "randomization": varied(task)}
         settings = {
             "truth": {},
