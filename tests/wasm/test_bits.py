@@ -68,7 +68,7 @@ def test_matches_have_the_bytes_of_native_matches(
         assert native.row.tobytes() == rows[step].tobytes(), f"row of step {step}"
         assert native.known.tobytes() == known[step].tobytes(), f"what blue knows in step {step}"
         assert native.game.tobytes() == games[step].tobytes(), f"referee of step {step}"
-    moved = np.abs(np.diff(rows[:, 0])) > 1e-4
+    moved = (np.abs(np.diff(rows[:, :2], axis=0)) > 1e-4).any(axis=1)  # along x or y
     # 22 robots keep the ball in play for half a minute.
     assert native.restarts >= 1 or field == "ssl_a"
     assert moved.mean() > 0.3
