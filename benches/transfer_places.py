@@ -155,12 +155,12 @@ TRIALS: Final = (
 
 
 def is_forecast(trial: Trial) -> bool:
-    """Return whether robots forecast: as the trial says, or since its policy expects it.
+    """Return whether robots forecast: as the trial says, or since its policy needs it.
 
     Args:
         trial: what is played.
     """
-    return trial.forecasts or make_policy(trial.policy, trial.task).forecasts
+    return trial.forecasts or make_policy(trial.policy, trial.task).needs_forecast
 
 
 def likeness(place: Place, trial: Trial) -> tuple[Task, Sensing]:

@@ -15,8 +15,9 @@ from rsoccer.controllers import Controllers
 from rsoccer.evaluate.episodes import LearnerPolicy
 from rsoccer.frame import Frame
 from rsoccer.human.driver import Driver, HumanPolicy
-from rsoccer.policies import make_policy
+from rsoccer.policies import list_policies, make_policy
 from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
+from rsoccer.registry import list_tasks
 from rsoccer.replay import Replay, ReplayError, record_replay
 from rsoccer.replay.evaluation import record_last_match
 from rsoccer.rng import WorldRng
@@ -478,7 +479,7 @@ class Turner(Spinner):
 class Expecting(Turner):
     """A policy that expects a forecast."""
 
-    forecasts = True
+    forecasts = needs_forecast = True
 
 
 @pytest.mark.parametrize("team", ["blue", "yellow"])
@@ -622,6 +623,8 @@ def test_a_replay_goes_on_from_a_match_with_a_forecast() -> None:
     plain = record_replay(task, {"blue": "best"}, 3, 0.6, sensing=late, snapshot_interval=0.2)
     with pytest.raises(ReplayError, match="without forecasts for blue"):
         plain.branch(max(plain.snapshots), policies)
+    script = plain.branch(max(plain.snapshots), {"blue": "strike"})
+    assert script.forecasting == (), "a script plays without one, too"
 
 
 def test_the_replay_of_an_evaluation_shows_the_match_that_it_played() -> None:
@@ -630,6 +633,28 @@ def test_the_replay_of_an_evaluation_shows_the_match_that_it_played() -> None:
     replay = record_last_match("best:robust", None, 1, 3, task=task, sensing=late)
     step = rsoccer.make_task(task).config.time_step
     assert found.seconds.mean == pytest.approx((len(replay) - 1) * step)
+
+
+def test_scripts_that_look_play_from_a_forecast_but_can_do_without() -> None:
+    looking = set()
+    for name in list_policies():
+        for task in list_tasks() if name != "best" else ():
+            try:
+                policy = make_policy(name, rsoccer.make_task(task))
+            except ValueError:
+                continue  # it plays other tasks
+            assert not policy.needs_forecast, name
+            # `receive` turns to the ball on its place, which a forecast changes little.
+            assert policy.forecasts == (policy.observes == "view" and name != "receive"), name
+            looking |= {type(policy)} if policy.forecasts else set()
+    assert len(looking) >= 9
+    assert PolicyMix(rsoccer.make_task("VSS-v0"), {"ou": 1.0, "chase": 1.0}, Clock()).forecasts
+
+
+def test_a_script_is_as_strong_with_late_senses() -> None:
+    """Without its forecast it loses to `chase` (-.3), and wins with it (.8)."""
+    found = rsoccer.evaluate("scripted", "chase", 20, task="VSSSelfPlay-v0", sensing="rc2021")
+    assert found.score > 0.5
 
 
 def test_policies_over_another_one_expect_what_it_expects() -> None:

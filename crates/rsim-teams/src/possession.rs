@@ -106,6 +106,16 @@ pub(crate) fn chosen(
     kick
 }
 
+/// The kick that a robot has chosen before, whatever has changed since; its choice where there is none.
+pub(crate) fn settled(
+    s: &Situation,
+    memory: &mut TeamMemory,
+    robot: usize,
+    choose: impl Fn() -> Kick,
+) -> Kick {
+    if memory.aimer == Some(robot) { remembered(memory) } else { chosen(s, memory, robot, choose) }
+}
+
 fn remembered(memory: &TeamMemory) -> Kick {
     Kick {
         at: memory.aim,

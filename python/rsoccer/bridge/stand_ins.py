@@ -48,7 +48,7 @@ class StandIns:
         }
         assignment = assign(task, controllers, 1)
         for group in assignment.groups:
-            if group.policy.forecasts:
+            if group.policy.needs_forecast:
                 raise ValueError(
                     "policy: expected one that has learned without a forecast, which a served "
                     f"match has not, got {type(group.policy).__name__}"

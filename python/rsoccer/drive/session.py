@@ -91,7 +91,7 @@ class Session:
         rules = task.referee_config if isinstance(task, Match) else None
         self.connection = Connection(config, settings, rules=rules, link=link, clock=clock)
         try:
-            if not delay and make_policy(policy, task).forecasts:
+            if not delay and make_policy(policy, task).needs_forecast:
                 raise ValueError(
                     "delay: expected that of the robots, in s, for a policy that has learned "
                     f"behind a forecast, got {delay:g}; `rsoccer identify` measures it"

@@ -218,7 +218,7 @@ class HumanPolicy(CommandPolicy):
         """
         super().__init__()
         self._policy = policy
-        self.forecasts = policy.forecasts
+        self.forecasts, self.needs_forecast = policy.forecasts, policy.needs_forecast
         self._robots = list(robots)
         self._driver = driver
         needs_view = policy.observes == "nothing"

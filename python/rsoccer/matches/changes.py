@@ -196,7 +196,7 @@ def _check_forecast(
 ) -> None:
     """Check that the team of a new policy forecasts if the policy expects it."""
     teams = {team_of(task.robots[robot]) for robot in group.robots}
-    if policy.forecasts and forecasting is not None:
+    if policy.needs_forecast and forecasting is not None:
         without = sorted(teams - set(forecasting))
         if without:
             raise ValueError(

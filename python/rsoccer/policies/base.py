@@ -108,8 +108,10 @@ class Policy(ABC):
     """Input that `act` gets; unused inputs are not computed."""
 
     forecasts: bool = False
-    """Whether it expects the state in which its commands act, where robots see and obey late: its
-    team forecasts then, as with `Sensing.forecast`."""
+    """Whether it plays from the state in which its commands act, where robots see and obey late:
+    its team forecasts then, as with `Sensing.forecast`."""
+    needs_forecast: bool = False
+    """Whether it cannot play without one, as it has learned behind a forecast."""
 
     _built_for: tuple[SimConfig, tuple[str, ...]] | None = None
     """Configuration and sides of the task it depends on; None if it depends on no task."""

@@ -74,7 +74,7 @@ class Network(HeldActions):
         self.clip, self.action_repeat = policy_file.read_metadata(self.metadata)
         policy_file.read_task_options(self.metadata)  # refuses wrong ones before they are needed
         training_conditions.describe(self.metadata)
-        self.forecasts = training_conditions.has_forecast(self.metadata)
+        self.forecasts = self.needs_forecast = training_conditions.has_forecast(self.metadata)
         self.layers = policy_file.read_layers(arrays)
         self.mean, self.std = policy_file.read_normalizer(arrays, self.observation_size)
         self.head = policy_file.read_head(arrays, self.metadata, len(self.layers[-1][1]))

@@ -67,7 +67,7 @@ class OnnxPolicy(HeldActions):
         self.action_repeat = 1
         if self._own:
             _, self.action_repeat = policy_file.read_metadata(self.metadata)
-            self.forecasts = training_conditions.has_forecast(self.metadata)
+            self.forecasts = self.needs_forecast = training_conditions.has_forecast(self.metadata)
         self.action_size = self._probed_size()
         if self._own:
             self.stack = policy_file.read_stack(

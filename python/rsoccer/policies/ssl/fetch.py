@@ -19,6 +19,7 @@ class Fetch(Policy):
     """A script that drives past other robots to the ball and takes it with the dribbler on."""
 
     observes: Observes = "view"
+    forecasts = True
 
     def __init__(self, task: Task) -> None:
         """Prepare the script for a task.

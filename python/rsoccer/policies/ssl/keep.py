@@ -52,6 +52,7 @@ class Keep(Policy):
     """
 
     observes: Observes = "view"
+    forecasts = True
 
     def __init__(self, task: Task) -> None:
         """Prepare the script for a task.

@@ -35,6 +35,7 @@ class Passer(Policy):
     """A script that turns to its teammate and passes; without the ball it receives passes."""
 
     observes: Observes = "view"
+    forecasts = True
 
     def __init__(self, task: Task) -> None:
         """Prepare the script for a task.

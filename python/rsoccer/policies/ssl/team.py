@@ -38,6 +38,7 @@ class ScriptedSsl(Policy):
     """
 
     observes: Observes = "view"
+    forecasts = True
 
     def __init__(self, task: Task, skill: float = 1.0) -> None:
         """Prepare the script for a task.

@@ -35,6 +35,7 @@ class Weave(Policy):
     """
 
     observes: Observes = "view"
+    forecasts = True
 
     def __init__(self, task: Task) -> None:
         """Prepare the script for a task.

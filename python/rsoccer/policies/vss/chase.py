@@ -31,6 +31,7 @@ class Chase(Policy):
     """
 
     observes: Observes = "view"
+    forecasts = True
 
     def __init__(self, task: Task) -> None:
         """Prepare the script for a task.

@@ -39,6 +39,7 @@ class Scripted(Policy):
     """
 
     observes: Observes = "view"
+    forecasts = True
 
     def __init__(self, task: Task, skill: float = 1.0) -> None:
         """Prepare the script for a task.

@@ -54,8 +54,9 @@ class PolicyMix(Policy):
         for policy in self._policies:
             require_actions("opponents", policy)
             self.observes = max(self.observes, policy.observes, key=_INPUTS.index)
-        # A team forecasts in all worlds or in none, and those without the need learned without it.
-        self.forecasts = bool(self._policies) and all(each.forecasts for each in self._policies)
+        # A team forecasts in all worlds or in none, and some have learned without a forecast.
+        looking = [each for each in self._policies if each.observes != "nothing"]
+        self.forecasts = bool(looking) and all(each.forecasts for each in looking)
         self._shares: Doubles = np.array(list(shares.values()), np.float64)
         self._shares /= max(self._shares.sum(), 1e-12)
         self._clock = clock
