@@ -12,6 +12,8 @@ from rsoccer._core import SimConfig, Simulator
 from rsoccer.arrays import Array, Floats
 from rsoccer.frame import row_size
 from rsoccer.rules.referee_config import RefereeConfig
+from rsoccer.sensing_text import with_number
+from rsoccer.view import SIDES
 
 _KICKOFF, _TEAMS, _SENSES = 0, 1, 5  # words of a seed, as `whole_match.rs` draws them
 _MASK: Final = 2**64 - 1
@@ -23,7 +25,6 @@ class NativeMatch:
 
     Attributes:
         row: (1, row) state.
-        known: (1, row) state as blue knows it.
         game: (1, game) state of the referee.
         commands: (1, robots, command) commands of the last step.
         restarts: number of times that the referee has put bodies elsewhere.
@@ -46,6 +47,8 @@ class NativeMatch:
             seed: seed of the match, 0 to 2**32 - 1.
             sensing: senses of the robots; None if they know the true state.
         """
+        if sensing is not None:
+            sensing = with_number(sensing, "forecast", 1.0)
         config = SimConfig(field, robots, robots, sensing=sensing)
         preset = "ssl_2026_a" if field == "ssl_a" else "ssl_2026_b"
         rules = RefereeConfig(preset, extra_half_seconds=0.0, shootout_kicks=0.0)
@@ -61,8 +64,8 @@ class NativeMatch:
         self._simulator.place_estimates(_ALL, self.row.copy(), self.row)
         self._simulator.place(_ALL, self.row.copy(), self.row)
         self._simulator.begin_senses(_ALL, np.array([_word(seed, _SENSES)], np.uint64))
-        self.known = np.empty_like(self.row)
-        self._simulator.sense(self.known)
+        self._known = (np.empty_like(self.row), np.empty_like(self.row))
+        self._sense()
         self._match: tuple[Array, ...] = (
             _core.Referee.new_game(_word(seed, _KICKOFF) & 1)[None].copy(),
             np.zeros((1, len(_core.STATISTICS_COLUMNS)), np.float32),
@@ -76,6 +79,11 @@ class NativeMatch:
         self.restarts = 0
 
     @property
+    def known(self) -> Floats:
+        """(1, row) state as blue knows it."""
+        return self._known[0]
+
+    @property
     def game(self) -> Floats:
         """(1, game) state of the referee."""
         return self._match[0]
@@ -83,8 +91,10 @@ class NativeMatch:
     def step(self) -> None:
         """Advance by a control step."""
         acted = [
-            team.commands(self.known, self.game, memory, nth)
-            for nth, (team, memory) in enumerate(zip(self._teams, self._memories, strict=True))
+            team.commands(known, self.game, memory, nth)
+            for nth, (known, team, memory) in enumerate(
+                zip(self._known, self._teams, self._memories, strict=True)
+            )
         ]
         self.commands = np.concatenate(acted, axis=1)
         before = self.row.copy()
@@ -94,7 +104,12 @@ class NativeMatch:
             self._simulator.restart(_ALL, self._restart.copy(), self.row)
             self._referee.begin(self.row, self._match)
             self.restarts += 1
-        self._simulator.sense(self.known)
+        self._sense()
+
+    def _sense(self) -> None:
+        """Find what the teams know: scripted ones forecast."""
+        for known, team in zip(self._known, SIDES, strict=True):
+            self._simulator.sense(known, known=team)
 
 
 def _word(seed: int, nth: int) -> int:

@@ -21,7 +21,13 @@ pub struct Conditions {
 }
 
 impl Conditions {
-    /// The senses; `None` if robots know the true state and obey exactly.
+    /// Whether both teams forecast, whatever drives them.
+    pub(crate) fn forecasts(&self) -> bool {
+        self.sensing.get("forecast").is_some_and(|value| *value >= 0.5)
+    }
+
+    /// The senses, with a forecast for those who expect one; `None` if robots know the true state and obey
+    /// exactly.
     ///
     /// # Errors
     /// An unknown name, or a number out of its range.
@@ -36,7 +42,8 @@ impl Conditions {
             *number = *value;
         }
         sensing.validate()?;
-        Ok((!sensing.is_off()).then_some(sensing))
+        let is_off = sensing.is_off();
+        Ok((!is_off).then_some(Sensing { forecast: 1.0, ..sensing }))
     }
 
     /// Factors on the numbers of the ball and of each robot; `None` if all are 1.

@@ -60,6 +60,11 @@ impl Side {
         Ok(Self::Scripted(Box::new(team), memory))
     }
 
+    /// Whether it plays from the state in which its commands act, as the programs of teams do.
+    pub(crate) fn forecasts(&self) -> bool {
+        matches!(self, Self::Scripted(..))
+    }
+
     /// Writes the commands of the team's robots, one after the other.
     ///
     /// # Errors

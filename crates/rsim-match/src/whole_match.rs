@@ -128,7 +128,7 @@ impl Match {
 
     /// Has nobody drive a team.
     pub fn set_idle(&mut self, team: Team) {
-        self.sides[team.index()] = Side::Idle;
+        self.set_side(team, Side::Idle);
     }
 
     /// Has the scripted SSL team drive a team.
@@ -137,7 +137,8 @@ impl Match {
     /// A skill that is not from 0 to 1, or a match of VSSS.
     pub fn set_scripted(&mut self, team: Team, skill: f32) -> Result<(), MatchError> {
         let [low, _] = halves(drawn(self.setup.seed, 1 + team.index()));
-        self.sides[team.index()] = Side::scripted(&self.config, &self.referee, skill, low)?;
+        let side = Side::scripted(&self.config, &self.referee, skill, low)?;
+        self.set_side(team, side);
         Ok(())
     }
 
@@ -150,7 +151,7 @@ impl Match {
         let seed = drawn(self.setup.seed, 3 + team.index());
         let sizes = self.actions.sizes();
         let player = Player::new(network, &self.config, sizes, robots, seed)?;
-        self.sides[team.index()] = Side::Network(Box::new(player));
+        self.set_side(team, Side::Network(Box::new(player)));
         Ok(())
     }
 
@@ -326,11 +327,22 @@ impl Match {
         Ok(())
     }
 
+    /// Finds what the teams know: by a forecast if they expect one, or if the conditions have it.
     fn sense(&mut self) {
+        let all = self.setup.conditions.forecasts();
         let teams = [Knowledge::Blue, Knowledge::Yellow];
-        for (knowledge, known) in teams.into_iter().zip(&mut self.known) {
-            self.batch.sense_as(knowledge, known, None);
+        for ((knowledge, side), known) in teams.into_iter().zip(&self.sides).zip(&mut self.known) {
+            if all || side.forecasts() {
+                self.batch.sense_as(knowledge, known, None);
+            } else {
+                self.batch.sense_without_forecast(knowledge, known, None);
+            }
         }
+    }
+
+    fn set_side(&mut self, team: Team, side: Side) {
+        self.sides[team.index()] = side;
+        self.sense();
     }
 
     fn check_robot(&self, robot: usize) -> Result<(), MatchError> {
@@ -403,6 +415,24 @@ mod tests {
         let rolled = play(&mut one, 40);
         assert!((play(&mut one, 10)[18] - rolled[18]).abs() < 1e-3, "it stands");
         assert!(one.control(4, None).is_err());
+    }
+
+    #[test]
+    fn scripted_teams_forecast_and_others_know_what_is_sensed() {
+        let sensing = [("delay", 0.1), ("command_delay", 0.05)];
+        let sensing = sensing.map(|(name, value)| (name.to_owned(), value)).into();
+        let late = Conditions { sensing, ..Conditions::default() };
+        let mut setup = Setup::new("ssl_b", 3, 3, 2);
+        setup.conditions = late;
+        let mut one = Match::new(setup).expect("valid");
+        one.set_scripted(Team::Blue, 1.0).expect("SSL");
+        play(&mut one, 200);
+        let before = one.known(Team::Blue).to_vec();
+        assert_ne!(before, one.known(Team::Yellow));
+        one.set_idle(Team::Blue);
+        assert_eq!(one.known(Team::Blue), one.known(Team::Yellow));
+        one.set_scripted(Team::Blue, 1.0).expect("SSL");
+        assert_eq!(one.known(Team::Blue), before);
     }
 
     #[test]

@@ -172,7 +172,10 @@ impl Simulator {
         let out = out.as_slice_mut()?;
         py.detach(|| match known {
             Some(Known(knowledge)) => self.0.sense_as(knowledge, out, active.as_deref()),
-            None => self.0.sense_without_forecast(out, active.as_deref()),
+            None => {
+                let Known(blue) = Known::default();
+                self.0.sense_without_forecast(blue, out, active.as_deref());
+            }
         });
         Ok(())
     }

@@ -163,11 +163,16 @@ impl Batch {
         });
     }
 
-    /// As [`Batch::sense`], for robots that do not forecast.
-    pub fn sense_without_forecast(&self, out: &mut [f32], active: Option<&[bool]>) {
+    /// As [`Batch::sense_as`], for robots that do not forecast.
+    pub fn sense_without_forecast(
+        &self,
+        knowledge: Knowledge,
+        out: &mut [f32],
+        active: Option<&[bool]>,
+    ) {
         self.threads.write_rows(out, self.config().row_size(), SENSED_ALONE, |world, row| {
             if active.is_none_or(|active| active[world]) {
-                self.worlds[world].write_row_as_seen(Knowledge::Blue, row);
+                self.worlds[world].write_row_as_seen(knowledge, row);
             }
         });
     }

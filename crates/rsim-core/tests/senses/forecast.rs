@@ -357,7 +357,7 @@ fn a_team_that_does_not_forecast_knows_what_is_sensed() {
         for (step, sensed) in (0..12).zip(sensed) {
             let forecast = step_and_sense(&mut batch, &scene, &mut rows, step, Knowledge::Blue);
             let mut known = rows.clone();
-            batch.sense_without_forecast(&mut known, None);
+            batch.sense_without_forecast(Knowledge::Blue, &mut known, None);
             assert_eq!(known, sensed, "{}", scene.name);
             assert_ne!(known, forecast, "{}", scene.name);
         }
