@@ -11,7 +11,7 @@ use crate::config::{SimConfig, count, invalid};
 use crate::threads::ThreadsOrCount;
 
 /// Robots whose commands are known, by their team or "all".
-#[derive(Default)]
+#[derive(Default, Clone, Copy)]
 pub(crate) struct Known(pub(crate) Knowledge);
 
 impl FromPyObject<'_, '_> for Known {

@@ -170,11 +170,12 @@ impl Simulator {
         let active = active.as_ref().map(values);
         let mut out = self.rows_out(out)?;
         let out = out.as_slice_mut()?;
-        py.detach(|| match known {
-            Some(Known(knowledge)) => self.0.sense_as(knowledge, out, active.as_deref()),
-            None => {
-                let Known(blue) = Known::default();
-                self.0.sense_without_forecast(blue, out, active.as_deref());
+        let Known(knowledge) = known.unwrap_or_default();
+        py.detach(|| {
+            if known.is_some() {
+                self.0.sense_as(knowledge, out, active.as_deref());
+            } else {
+                self.0.sense_without_forecast(knowledge, out, active.as_deref());
             }
         });
         Ok(())
