@@ -208,7 +208,7 @@ def test_only_sliders_of_vision_bring_cameras(tmp_path: Path) -> None:
         tmp_path,
     )
     assert result == [
-        ["command", True, False, 0, 0],
+        ["command", False, False, 0, 0],  # a scripted team forecasts
         ["radio", True, False, 0, 0],
         ["delay", False, True, 60, 1],
         ["noise", False, True, 60, 1],
