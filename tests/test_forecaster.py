@@ -657,6 +657,19 @@ def test_a_script_is_as_strong_with_late_senses() -> None:
     assert found.score > 0.5
 
 
+def test_a_scripted_teammate_does_not_change_what_others_observe() -> None:
+    late = Sensing(command_delay=DELAY)
+
+    def forecasting(**controllers: str) -> tuple[str, ...]:
+        return Matches("VSSSelfPlay-v0", controllers=controllers, sensing=late).forecasting
+
+    assert forecasting(blue="scripted", yellow="ou") == ("blue",)
+    assert forecasting(blue="scripted", blue_0="chase", yellow="best") == ("blue",)
+    assert forecasting(blue="scripted", blue_0="zero", yellow="best") == ("blue",)
+    assert forecasting(blue="scripted", blue_0="best", yellow="best") == ()
+    assert forecasting(blue_1="scripted") == (), "a learner is in the team"
+
+
 def test_policies_over_another_one_expect_what_it_expects() -> None:
     task = rsoccer.make_task("SSLGoToBall-v0")
     robust = make_policy("best:robust", task)

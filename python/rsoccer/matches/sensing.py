@@ -6,6 +6,7 @@ from typing import Final
 from rsoccer._core import SENSING_NUMBERS, Sensing
 from rsoccer.controllers import Assignment
 from rsoccer.frame import Frame, team_of
+from rsoccer.policies.base import Policy
 from rsoccer.randomization import NumberRanges
 from rsoccer.rng import WorldRng
 from rsoccer.senses import ModelSenses, Senses, SensorModel
@@ -65,7 +66,10 @@ def new_senses(
 
 
 def forecasting_teams(task: Task, assignment: Assignment, asked: Sequence[str]) -> tuple[str, ...]:
-    """Return the teams that are asked to forecast, and those with policies that expect it.
+    """Return the teams that are asked to forecast, and those whose policies play from a forecast.
+
+    One policy that needs it is enough. Otherwise all that look have to, and learners do not: what
+    they observe does not depend on their teammates.
 
     Args:
         task: the task that is played.
@@ -79,9 +83,19 @@ def forecasting_teams(task: Task, assignment: Assignment, asked: Sequence[str]) 
     if isinstance(asked, str) or (unknown := sorted(set(asked) - set(teams), key=str)):
         got = asked if isinstance(asked, str) else unknown
         raise ValueError(f"forecasting: expected some of {teams}, got {got!r}")
-    groups = [group for group in assignment.groups if group.policy.forecasts]
-    robots = [task.robots[robot] for group in groups for robot in group.robots.tolist()]
-    return tuple(sorted({*teams_of(robots), *asked}))
+    learners = teams_of(task.robots[robot] for robot in assignment.learners)
+    looking: dict[str, list[Policy]] = {team: [] for team in teams}
+    for group in assignment.groups:
+        if group.policy.observes != "nothing":
+            for team in teams_of(task.robots[robot] for robot in group.robots):
+                looking[team].append(group.policy)
+    found = {
+        team
+        for team, policies in looking.items()
+        if any(policy.needs_forecast for policy in policies)
+        or (policies and team not in learners and all(policy.forecasts for policy in policies))
+    }
+    return tuple(sorted({*found, *asked}))
 
 
 def teams_of(robots: Iterable[str]) -> tuple[str, ...]:

@@ -109,9 +109,10 @@ class Policy(ABC):
 
     forecasts: bool = False
     """Whether it plays from the state in which its commands act, where robots see and obey late:
-    its team forecasts then, as with `Sensing.forecast`."""
+    its team forecasts then, as with `Sensing.forecast`, if all that look there do so."""
     needs_forecast: bool = False
-    """Whether it cannot play without one, as it has learned behind a forecast."""
+    """Whether it cannot play without one, as it has learned behind a forecast: then its team
+    forecasts, learners and others too."""
 
     _built_for: tuple[SimConfig, tuple[str, ...]] | None = None
     """Configuration and sides of the task it depends on; None if it depends on no task."""
