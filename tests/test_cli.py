@@ -134,3 +134,9 @@ def test_a_closed_pipe_is_no_error() -> None:
         ["bash", "-c", f"set -o pipefail; {command}"], capture_output=True, text=True, check=False
     )
     assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_an_option_that_is_given_twice_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["benchmark", "fetch", "--task", "SSLGoToBall-v0", "--task=SSLDribbling-v0"]
+    assert cli.main(words) == cli.WRONG_INPUT
+    assert "--task: expected once, got 2 times" in capsys.readouterr().err

@@ -12,6 +12,9 @@ from collections.abc import Sequence
 WRONG_INPUT = 2  # exit status for wrong input, as of command-line parsers
 INTERRUPTED = 130  # exit status after Ctrl-C, as shells report it: 128 + SIGINT
 
+REPEATABLE = "--import"
+"""The option that may be given more than once."""
+
 EXTRAS = {
     "PIL": "render",
     "google": "network",
@@ -71,6 +74,7 @@ def _run(arguments: Sequence[str] | None) -> None:
     from rsoccer.commands.numbers import whole_numbers
     from rsoccer.commands.sources import refusals_as_wrong_input
 
+    _refuse_repetitions(words)
     with refusals_as_wrong_input():
         command = tyro.cli(
             command_type(words),
@@ -81,6 +85,17 @@ def _run(arguments: Sequence[str] | None) -> None:
             registry=whole_numbers(),
         )
         command.run()
+
+
+def _refuse_repetitions(words: Sequence[str]) -> None:
+    """Refuse an option that is given twice: the last one would silently replace the others."""
+    names = [word.partition("=")[0] for word in words if word.startswith("--")]
+    for name in dict.fromkeys(names):
+        if names.count(name) > 1 and name != REPEATABLE:
+            raise ValueError(
+                f"{name}: expected once, got {names.count(name)} times; several values follow one "
+                f"option, as in {name} A B"
+            )
 
 
 def version() -> str:

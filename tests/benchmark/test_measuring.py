@@ -1,15 +1,20 @@
 """`run_benchmark`: rows of all opponents and conditions, and measurements that go on."""
 
+import dataclasses
 import hashlib
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import rsoccer
+from rsoccer.arrays import Floats
 from rsoccer.benchmark import CONDITIONS, Entry, Row, read_entry, report, rows_of, run_benchmark
-from rsoccer.policies import make_policy
+from rsoccer.policies import make_policy, names
+from rsoccer.policies.base import Memory, Policy, PolicyInput
 from rsoccer.policies.trained import list_trained
+from rsoccer.rng import WorldRng
 
 TASK = "SSLGoToBall-v0"
 
@@ -127,3 +132,40 @@ def test_a_file_is_named_by_its_content(tmp_path: Path) -> None:
 def test_other_options_are_refused(options: dict[str, object], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         measure(**options)
+
+
+class Kicker(Policy):
+    """A script for robots with kickers, which does not say so."""
+
+    observes = "nothing"
+
+    def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
+        actions = np.zeros(inputs.action_shape, np.float32)
+        actions[..., 3] = 1.0
+        return actions
+
+
+def test_tasks_whose_robots_a_script_cannot_drive_are_left_out_with_the_reason() -> None:
+    entry = run_benchmark(Kicker(), ["VSS-v0", TASK], matches=20, threads=1, robust=False)
+    assert list(entry.tasks) == [TASK]
+    assert "IndexError: index 3 is out of bounds" in entry.refused["VSS-v0"]
+    with pytest.raises(ValueError, match="expected one that plays one of the tasks"):
+        run_benchmark(Kicker(), ["VSS-v0"], matches=20, threads=1, robust=False)
+
+
+def test_conditions_are_added_to_an_entry_without_them_and_not_taken_away() -> None:
+    plain, robust = measure(), measure(robust=True)
+    more = measure(robust=True, begun=plain)
+    assert more.robust
+    kept = [dataclasses.replace(row, wall_clock=0.0) for row in more.tasks[TASK]]
+    assert kept == [dataclasses.replace(row, wall_clock=0.0) for row in robust.tasks[TASK]]
+    with pytest.raises(ValueError, match="robust is False, got one with them"):
+        measure(begun=robust)
+
+
+def test_a_registered_policy_is_named_by_the_file_with_its_code(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setitem(names._MAKERS, "kicker_to_measure", lambda task: Kicker())
+    entry = run_benchmark("kicker_to_measure", [TASK], matches=20, threads=1, robust=False)
+    assert entry.digest == hashlib.sha256(Path(__file__).read_bytes()).hexdigest()

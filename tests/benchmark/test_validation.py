@@ -68,6 +68,7 @@ def row(**numbers: object) -> Callable[[dict[str, Any]], object]:
         (lambda v: v.update(digest="G" * 64), "digest: expected 64 hexadecimal digits"),
         (lambda v: v.update(date="25.11.2026"), "date: expected year-month-day"),
         (lambda v: v.update(date="2026-02-30"), "date: expected year-month-day"),
+        (lambda v: v.update(date="2999-11-26"), "not in the future, got '2999-11-26'"),
         (lambda v: v.update(link="javascript:alert(1)"), "link: expected an address"),
         (lambda v: v.update(link="https://a.org/) | x"), "link: expected an address"),
         (lambda v: v["refused"].update({"VSS-v0": 1}), "refused.VSS-v0: expected a text, got 1"),

@@ -60,7 +60,7 @@ def test_code_that_an_entry_names_is_not_run(
     ("words", "message"),
     [
         ([], "policy: expected a policy, or --check"),
-        (["fetch", "--check", "a.json"], "policy: expected a policy, or --check"),
+        (["fetch", "--check", "a.json"], "replay: expected a task to play again"),
         (["fetch", "--replay", "VSS-v0"], "replay: expected --check with it"),
         (["fetch", "--out", "entry.txt"], "out: expected a name ending in .json"),
         (["match.rsr"], "expected a policy, got the replay"),

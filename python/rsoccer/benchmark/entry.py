@@ -18,8 +18,9 @@ from rsoccer import plugins
 from rsoccer.benchmark.machine import machine, versions
 from rsoccer.benchmark.protocol import MATCHES, SEED, rows_of
 from rsoccer.files import write_atomically
-from rsoccer.policies import PolicyLike, file_of, is_module_text, name_of
+from rsoccer.policies import PolicyLike, file_of, is_module_text, is_registered, name_of
 from rsoccer.policies.base import Policy
+from rsoccer.policies.names import source_of
 
 FORMAT: Final = 1
 """Version of the file."""
@@ -66,7 +67,7 @@ class Entry:
     policy: str
     """name, path or "module:name" of the policy"""
     digest: str
-    """SHA-256 of the policy file or the code's module; empty for policies of the package"""
+    """SHA-256 of the policy file or of the file with the code; empty for policies of the package"""
     description: str
     """origin of the policy, in a sentence"""
     link: str
@@ -190,7 +191,8 @@ class Entry:
 def digest(policy: PolicyLike) -> str:
     """Return the SHA-256 of a policy file, or of the file of a module that has the policy.
 
-    Other files that a module imports are not part of it. It is empty for names and objects.
+    Other files that a module imports are not part of it. It is empty for policies of the package
+    and for objects. A name that was registered stands for the file with its code.
 
     Args:
         policy: a policy, its name, its file, or "module:name", which is imported.
@@ -204,9 +206,13 @@ def digest(policy: PolicyLike) -> str:
 
 
 def _file(policy: str) -> Path | None:
-    """The file that has a policy; None for a name, and for a module without one."""
-    if not is_module_text(policy):
+    """The file that has a policy; None for one of the package, and for code without a file."""
+    name = policy.partition(":")[0]
+    if is_module_text(policy):
+        plugins.find("policy", policy)
+        source = sys.modules[name].__file__
+    elif is_registered(policy):
+        source = source_of(name)
+    else:
         return file_of(policy)
-    plugins.find("policy", policy)
-    source = sys.modules[policy.partition(":")[0]].__file__
     return None if source is None or not os.path.isfile(source) else Path(source)

@@ -11,8 +11,11 @@ from rsoccer.benchmark.conditions import CONDITIONS
 from rsoccer.benchmark.entry import Entry, Row
 from rsoccer.benchmark.protocol import MATCHES, SEED, TASKS
 from rsoccer.evaluate import evaluate
+from rsoccer.evaluate.episodes import LearnerPolicy
 from rsoccer.evaluate.results import MIN_PER_SIDE
+from rsoccer.matches import Matches
 from rsoccer.policies import PolicyLike, check_policy_like, make_policy
+from rsoccer.policies.base import Policy, require_actions
 
 
 def run_benchmark(
@@ -46,7 +49,8 @@ def run_benchmark(
         matches: matches of each row, even and at least 20; the leaderboard takes 200 or more.
         robust: whether the first opponent of each task is met under all conditions, too.
         threads: threads of the simulator; by default one per available processor.
-        begun: an entry of the same policy, whose rows are kept.
+        begun: an entry of the same policy, whose rows are kept; rows that it lacks are added, those
+            of other conditions too if it was measured without them.
         on_row: called after each row with the entry so far, the task and the row.
 
     Returns:
@@ -68,6 +72,8 @@ def run_benchmark(
     )
     if begun is not None:
         entry = _continued(begun, entry, name)
+    # With more conditions than before, the tasks of the begun entry have rows to add, too.
+    chosen = tuple(task for task in TASKS if task in {*chosen, *entry.tasks})
     entry = _without_others(entry, policy, chosen)
     for task in chosen:
         for opponent, condition in entry.missing(task):
@@ -99,12 +105,22 @@ def _without_others(entry: Entry, policy: PolicyLike, tasks: Sequence[str]) -> E
 
 def _continued(begun: Entry, new: Entry, name: str | None) -> Entry:
     """The begun entry, if the new one would go on with it."""
-    for field in ("policy", "digest", "matches", "robust", "seed", "versions"):
+    for field in ("policy", "digest", "matches", "seed", "versions"):
         before, now = getattr(begun, field), getattr(new, field)
         if before != now:
-            raise ValueError(f"begun: expected an entry whose {field} is {now!r}, got {before!r}")
+            why = "; the policy has changed since" if field == "digest" else ""
+            raise ValueError(
+                f"begun: expected an entry whose {field} is {now!r}, got {before!r}{why}: measure "
+                "into another file, or remove that one"
+            )
+    if begun.robust and not new.robust:
+        raise ValueError(
+            "begun: expected an entry without other conditions, as robust is False, got one with "
+            "them: measure into another file, or with robust"
+        )
     return dataclasses.replace(
         begun,
+        robust=new.robust,
         name=name or begun.name,
         description=new.description or begun.description,
         link=new.link or begun.link,
@@ -114,10 +130,21 @@ def _continued(begun: Entry, new: Entry, name: str | None) -> Entry:
 def _reason_against(policy: PolicyLike, task: str) -> str | None:
     """Reason for which a policy cannot play a task; None if it can."""
     try:
-        make_policy(policy, task)
-    except ValueError as error:
+        made = make_policy(policy, task)
+        require_actions("policy", made)
+    except (TypeError, ValueError) as error:
         return str(error)
+    try:
+        _play_a_step(made, task)
+    except Exception as error:  # any that code for other robots may raise
+        return f"{type(error).__name__}: {error}"
     return None
+
+
+def _play_a_step(policy: Policy, task: str) -> None:
+    """Let a policy act once: a script may be made for a task whose robots it cannot drive."""
+    matches = Matches(task, seed=SEED, threads=1)
+    matches.step(LearnerPolicy(policy, matches, SEED).act(matches.reset()))
 
 
 def measured(

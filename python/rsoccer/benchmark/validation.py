@@ -132,7 +132,7 @@ def _texts(values: Mapping[str, Any]) -> Iterator[str]:
     if not re.fullmatch("([0-9a-f]{64})?", values["digest"]):
         yield f"digest: expected 64 hexadecimal digits or none, got {values['digest']!r}"
     if not _is_date(values["date"]):
-        yield f"date: expected year-month-day, got {values['date']!r}"
+        yield f"date: expected year-month-day, not in the future, got {values['date']!r}"
     if not LINK.fullmatch(values["link"]):
         yield f"link: expected an address (https://...) or none, got {values['link']!r}"
     for task, reason in values["refused"].items():
@@ -151,11 +151,13 @@ def _machine(values: Mapping[str, Any]) -> Iterator[str]:
 
 
 def _is_date(text: str) -> bool:
-    """Whether a text is a date as entries have it."""
+    """Whether a text is a date as entries have it, of a day that has begun somewhere."""
+    newest = datetime.datetime.now(datetime.UTC).date() + datetime.timedelta(days=1)
     try:
-        return datetime.date.fromisoformat(text).isoformat() == text
+        day = datetime.date.fromisoformat(text)
     except ValueError:
         return False
+    return day.isoformat() == text and day <= newest
 
 
 def _task(values: Mapping[str, Any], task: str, rows: object, partial: bool) -> Iterator[str]:

@@ -56,9 +56,13 @@ class Benchmark(Imports):
             ValueError: neither a policy nor a file to check, or both without a task to replay; an
                 invalid entry, one whose scores are others, or an option that is refused.
         """
-        both = self.policy is not None and self.check is not None
-        if (both and self.replay is None) or (self.policy is None and self.check is None):
+        if self.policy is None and self.check is None:
             raise ValueError("policy: expected a policy, or --check with a file in its place")
+        if self.policy is not None and self.check is not None and self.replay is None:
+            raise ValueError(
+                "replay: expected a task to play again, as --check with a policy does, got none; "
+                "without the policy --check reads the file alone"
+            )
         if self.check is not None:
             self._check(self.check)
             return

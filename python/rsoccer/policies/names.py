@@ -125,6 +125,21 @@ def find(name: str) -> Maker | None:
     return _MAKERS.get(name)
 
 
+def source_of(name: str) -> str | None:
+    """Return the file with the code of a policy; None for one of the package, and without a file.
+
+    Args:
+        name: name of the policy, without skill or mode.
+    """
+    maker = find(name)
+    if maker is None or name in _BUILT_IN:
+        return None
+    try:
+        return inspect.getsourcefile(maker)
+    except TypeError:  # an object of a class of one's own
+        return inspect.getsourcefile(type(maker))
+
+
 def make(name: str, task: Task, skill: str | None = None) -> Policy:
     """Make the policy of a name.
 
