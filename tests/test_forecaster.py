@@ -18,7 +18,7 @@ from rsoccer.human.driver import Driver, HumanPolicy
 from rsoccer.policies import list_policies, make_policy
 from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
 from rsoccer.registry import list_tasks
-from rsoccer.replay import Replay, ReplayError, record_replay
+from rsoccer.replay import Recorder, Replay, ReplayError, record_replay
 from rsoccer.replay.evaluation import record_last_match
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
@@ -644,8 +644,7 @@ def test_scripts_that_look_play_from_a_forecast_but_can_do_without() -> None:
             except ValueError:
                 continue  # it plays other tasks
             assert not policy.needs_forecast, name
-            # `receive` turns to the ball on its place, which a forecast changes little.
-            assert policy.forecasts == (policy.observes == "view" and name != "receive"), name
+            assert policy.forecasts == (policy.observes == "view"), name
             looking |= {type(policy)} if policy.forecasts else set()
     assert len(looking) >= 9
     assert PolicyMix(rsoccer.make_task("VSS-v0"), {"ou": 1.0, "chase": 1.0}, Clock()).forecasts
@@ -668,6 +667,80 @@ def test_a_scripted_teammate_does_not_change_what_others_observe() -> None:
     assert forecasting(blue="scripted", blue_0="zero", yellow="best") == ("blue",)
     assert forecasting(blue="scripted", blue_0="best", yellow="best") == ()
     assert forecasting(blue_1="scripted") == (), "a learner is in the team"
+
+
+@pytest.mark.parametrize("number", ["own_cameras", "forecast_others"])
+def test_a_scripted_opponent_does_not_make_others_forecast(number: str) -> None:
+    """Where teams forecast together, one that need not waits for the other."""
+    late = f"command_delay={DELAY}, {number}=1"
+
+    def forecasting(yellow: str, blue: str | None = None) -> tuple[str, ...]:
+        controllers = {"yellow": yellow} | ({} if blue is None else {"blue": blue})
+        return Matches("VSSSelfPlay-v0", controllers=controllers, sensing=late).forecasting
+
+    assert forecasting("scripted") == forecasting("scripted", "best") == ()
+    for blue in ("chase", "zero"):
+        assert forecasting("scripted", blue) != ()
+    drawn = Matches(
+        "VSSSelfPlay-v0",
+        controllers={"yellow": "scripted"},
+        sensing=Sensing(command_delay=DELAY),
+        randomization={"sensing.own_cameras": (0.0, 1.0)},
+    )
+    assert drawn.forecasting == ()
+
+
+def test_forecasts_that_are_asked_for_are_all_there_are() -> None:
+    late = Sensing(command_delay=DELAY)
+    both = {"blue": "chase", "yellow": "scripted"}
+    for asked in ((), ("blue",), ("blue", "yellow")):
+        matches = Matches("VSSSelfPlay-v0", controllers=both, sensing=late, forecasting=asked)
+        assert matches.forecasting == asked
+    env = rsoccer.parallel_env("VSSSelfPlay-v0", controllers={"yellow": "best"}, sensing=late)
+    env.reset(seed=0)
+    env.matches.change_controllers({"yellow": "scripted"})
+    assert env.matches.forecasting == env.matches.with_seed(3).forecasting == ()
+
+
+def test_an_evaluation_forecasts_as_matches_of_its_policies_do() -> None:
+    late = Sensing("rc2021", command_delay=DELAY)
+    cases: list[tuple[str, str, str | None]] = [
+        ("SSLPassEndurance-v1", "passer", None),
+        ("SSLPassEndurance-v1", "best", None),
+        ("VSSSelfPlay-v0", "best", "scripted"),
+        ("VSSSelfPlay-v0", "chase", "best"),
+    ]
+    for name, policy, opponent in cases:
+        task = rsoccer.make_task(name)
+        controllers = {} if opponent is None else {"yellow": opponent}
+        own = Matches(name, controllers={**controllers, "blue_0": policy}, sensing=late)
+        if opponent is not None:
+            own = Matches(name, controllers={**controllers, "blue": policy}, sensing=late)
+        asked = Matches(
+            name, controllers=controllers, sensing=late, forecasting=make_policy(policy, task)
+        )
+        assert own.forecasting == asked.forecasting, (name, policy, opponent)
+
+
+def test_recordings_with_changed_policies_go_on() -> None:
+    """Their teams forecast as in the recording, not as the last policies would have them."""
+    matches = Matches(
+        "VSSSelfPlay-v0",
+        controllers={"blue": "chase", "yellow": "best:mean"},
+        sensing=Sensing(command_delay=DELAY),
+        autoreset="disabled",
+    )
+    matches.reset(seed=3)
+    matches.change_controllers({"yellow": "scripted"})
+    names = {"blue": "chase", "yellow": "scripted"}
+    recorder = Recorder(matches, controllers=names, snapshot_interval=0.1)
+    recorder.begin()
+    for _ in range(12):
+        recorder.add(matches.step(np.zeros((1, 0, 2), np.float32)))
+    replay = Replay.from_bytes(recorder.replay().to_bytes())
+    assert replay.forecasting == ("blue",)
+    frame = max(replay.snapshots)
+    assert replay.resume(frame).forecasting == ("blue",)
 
 
 def test_policies_over_another_one_expect_what_it_expects() -> None:

@@ -32,7 +32,7 @@ const PRECISE: f32 = 2.5;
 /// Growth of the errors after that, 1/s.
 const GROWTH: f32 = 1.0;
 /// Largest errors, as factors.
-const MAX_TOLERANCE: f32 = 4.0;
+const MAX_TOLERANCE: f32 = 2.5;
 
 /// Order of the robot that takes the kick-off or free kick.
 pub(crate) fn take_kick(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Order {
@@ -134,6 +134,23 @@ mod tests {
             })
         };
         assert!(!kicks_after(2.0) && kicks_after(5.0));
+    }
+
+    #[test]
+    fn a_kicker_that_has_waited_keeps_what_it_has_chosen() {
+        let mut scene = Scene::new(1, 0);
+        scene.ball([0.0, 0.0], [0.0, 0.0]);
+        scene.robot(0, [-0.5, 0.0]);
+        let aside = Vector::new(0.0, 2.0);
+        let facing = |command_time| {
+            let mut memory = TeamMemory { aimer: Some(0), aim: aside, ..TeamMemory::new(1) };
+            scene.situation(KICK, |s| {
+                let s = Situation { command_time, step: 0, path: s.path.clone(), ..*s };
+                take_kick(&s, &mut memory, &s.view.own[0]).facing
+            })
+        };
+        assert!(facing(2.0).y.abs() < 0.5, "before, it takes the better shot");
+        assert!(facing(5.0).y > 0.9);
     }
 
     #[test]

@@ -38,7 +38,7 @@ class StandIns:
             seed: seed of their random numbers.
 
         Raises:
-            ValueError: an unknown policy, one that does not fit the match, or one that expects a
+            ValueError: an unknown policy, one that does not fit the match, or one that needs a
                 forecast.
         """
         given = (blue, yellow)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from rsoccer import checks
 from rsoccer.arrays import Floats
-from rsoccer.evaluate.episodes import LearnerPolicy, forecasting_for
+from rsoccer.evaluate.episodes import LearnerPolicy
 from rsoccer.evaluate.schedule import processors
 from rsoccer.lineup import lineup
 from rsoccer.matches import Matches
@@ -99,7 +99,7 @@ def record_episodes(
             controllers=controllers,
             autoreset="disabled",
             sensing=sensing,
-            forecasting=forecasting_for(task, controllers, own),
+            forecasting=own,
             randomization=randomization,
         )
         recorded = _Recorded.of(world, LearnerPolicy(own, world, first))

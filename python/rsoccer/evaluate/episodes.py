@@ -10,16 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rsoccer.arrays import Doubles, Floats, Mask
-from rsoccer.controllers import Controller, Controllers, resolve
+from rsoccer.controllers import Controller
 from rsoccer.game import BLUE, NOBODY, YELLOW, EventKind
 from rsoccer.matches import Matches, Outcome
-from rsoccer.matches.sensing import teams_of
 from rsoccer.play import Play
 from rsoccer.policies.base import MatchState, Memory, Policy, PolicyInput, require_actions
 from rsoccer.randomization import Ranges
 from rsoccer.rng import WorldRng
 from rsoccer.sources import SensingSource, SimulatorSource, closed_after
-from rsoccer.task import Learn, Task
+from rsoccer.task import Task
 
 RETURN = "return"
 """Name of the score of a task without a success metric: the return of the episode."""
@@ -145,7 +144,7 @@ class EpisodeRunner:
             autoreset="disabled",
             simulator=self.simulator,
             sensing=self.sensing,
-            forecasting=forecasting_for(self.task, self.controllers, self.policy),
+            forecasting=self.policy,
             randomization=self.randomization,
         )
         with closed_after(matches, self.simulator):
@@ -228,19 +227,6 @@ class _Team:
     """(n,) random streams"""
     memory: Memory
     """(n, ...) arrays of the policy"""
-
-
-def forecasting_for(task: Task, controllers: Controllers | None, policy: Policy) -> tuple[str, ...]:
-    """Return the teams that forecast for a policy in the place of the learners.
-
-    Args:
-        task: the task.
-        controllers: controllers of the matches, which leave some robots to learners.
-        policy: the policy.
-    """
-    resolved = resolve(task, controllers)
-    learners = [robot for robot, each in resolved.items() if isinstance(each, Learn)]
-    return teams_of(learners) if policy.forecasts else ()
 
 
 class LearnerPolicy:

@@ -218,11 +218,12 @@ class HumanPolicy(CommandPolicy):
         """
         super().__init__()
         self._policy = policy
-        self.forecasts, self.needs_forecast = policy.forecasts, policy.needs_forecast
         self._robots = list(robots)
         self._driver = driver
         needs_view = policy.observes == "nothing"
         self.observes: Observes = "view" if needs_view else policy.observes
+        self.forecasts = policy.forecasts or needs_view  # as its scripted teammates do
+        self.needs_forecast = policy.needs_forecast
 
     def check_fits(self, task: Task, observation_size: int) -> None:
         """Check that the policy beneath can play a task.

@@ -124,7 +124,7 @@ def change_controllers(
         TypeError: something that is not a policy.
         ValueError: an unknown robot, one that learns, different policies for robots that share one,
             a policy that does not fit the task, one that observes where the one before did not, or
-            one that expects a forecast in a team without it. Nothing has changed.
+            one that needs a forecast in a team without it. Nothing has changed.
     """
     given = given_by_name(controllers)
     valid = ["all", *SIDES, *task.robots]
@@ -194,14 +194,14 @@ def _policy(
 def _check_forecast(
     task: Task, group: PolicyGroup, policy: Policy, forecasting: tuple[str, ...] | None
 ) -> None:
-    """Check that the team of a new policy forecasts if the policy expects it."""
+    """Check that the team of a new policy forecasts if the policy needs it."""
     teams = {team_of(task.robots[robot]) for robot in group.robots}
     if policy.needs_forecast and forecasting is not None:
         without = sorted(teams - set(forecasting))
         if without:
             raise ValueError(
                 f"controllers: expected a policy without forecasts for {', '.join(without)}, "
-                f"got {type(policy).__name__}; begin with one that expects them, or with "
+                f"got {type(policy).__name__}; begin with one that needs them, or with "
                 "sensing that has forecast=1"
             )
 

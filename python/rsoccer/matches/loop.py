@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from rsoccer import checks, spaces
 from rsoccer._core import Sensing, Simulator, Threads
 from rsoccer.arrays import Array, Doubles, Floats, Mask
-from rsoccer.controllers import Controllers, assign
+from rsoccer.controllers import Controllers, assign, resolve
 from rsoccer.frame import Frame
 from rsoccer.global_state import StateEncoder
 from rsoccer.history import ObservationStack
@@ -30,6 +30,7 @@ from rsoccer.matches.outcome import Episodes, Outcome
 from rsoccer.matches.paused import PausedWorlds
 from rsoccer.matches.sensing import (
     ON,
+    forecast_together,
     forecasting_teams,
     may_forecast,
     new_senses,
@@ -40,7 +41,7 @@ from rsoccer.matches.sensing import (
 from rsoccer.matches.starts import Starts
 from rsoccer.new_play import new_play, new_viewpoint
 from rsoccer.play import Play
-from rsoccer.policies.base import CommandPolicy
+from rsoccer.policies.base import CommandPolicy, Policy
 from rsoccer.randomization import Randomization, Ranges
 from rsoccer.registry import resolve_task
 from rsoccer.rng import Seeds, WorldRng, next_streams
@@ -56,7 +57,7 @@ from rsoccer.sources import (
     make_simulator,
 )
 from rsoccer.spaces import ActionSpace
-from rsoccer.task import Task
+from rsoccer.task import Learn, Task
 
 AUTORESETS: Final = ("same_step", "next_step", "disabled")
 
@@ -110,7 +111,7 @@ class Matches:
         sensing: the `Sensing`, or what another sensor model was given as; None if robots know the
             true state.
         forecasting: teams, "blue" or "yellow", that forecast although `sensing` does not: those
-            that were asked to, and those with policies that expect it.
+            that were asked to, or whose policies play from it.
         randomization: distributions of numbers that each episode draws, by name.
         play: state of all worlds, to be read only: frames, score, events of the last step.
 
@@ -136,7 +137,7 @@ class Matches:
         autoreset: str = "same_step",
         simulator: SimulatorSource | None = None,
         sensing: SensingSource | None = None,
-        forecasting: Sequence[str] = (),
+        forecasting: Sequence[str] | Policy | None = None,
         randomization: Ranges | None = None,
         history: int = 1,
         max_steps: int | None = None,
@@ -164,7 +165,9 @@ class Matches:
                 of a preset of it, a `rsoccer.senses.SensorModel`, or its text "module:name"; None
                 if they know and obey exactly.
             forecasting: teams, "blue" or "yellow", that forecast with a `Sensing` whose `forecast`
-                is off; teams with policies that expect it do so anyway.
+                is off. None for those without learners in which all policies that look play from
+                one; a policy for the same as if it drove the learners. A team with a policy that
+                needs a forecast always has one.
             randomization: distributions of numbers that each episode draws for itself, by name,
                 such as `{"robot.mass": (0.9, 1.1)}`; see `rsoccer.randomization`. None for the same
                 numbers in all.
@@ -466,7 +469,7 @@ class Matches:
         Raises:
             TypeError: something that is not a policy. Nothing has changed.
             ValueError: an unknown robot, one that learns, a policy that does not fit the task, one
-                that observes in the place of one that does not, or one that expects a forecast in a
+                that observes in the place of one that does not, or one that needs a forecast in a
                 team without it. Nothing has changed.
         """
         were_read = self.assignment.reads_observations
@@ -813,16 +816,26 @@ class Matches:
         return everyone if is_of_all else self.forecasting or self._observing_teams()
 
     def _begin_forecasts(
-        self, controllers: Controllers | None, asked: Sequence[str]
+        self, controllers: Controllers | None, asked: Sequence[str] | Policy | None
     ) -> tuple[str, ...]:
-        """Let teams forecast that are asked to or whose policies expect it, and return them."""
-        teams = forecasting_teams(self.task, self.assignment, asked)
+        """Let teams forecast that are asked to or whose policies play from it, and return them."""
+        assignment = self.assignment
+        if isinstance(asked, Policy):
+            resolved = resolve(self.task, controllers).items()
+            driven = {robot: asked if isinstance(each, Learn) else each for robot, each in resolved}
+            assignment, asked = assign(self.task, driven, 1), None
         sensing, ranges = simulated(self._sensing), self._randomization.sensing
-        if sensing is None or may_forecast(sensing, ranges) or not teams:
+        if sensing is None or may_forecast(sensing, ranges):
+            forecasting_teams(self.task, assignment, asked, together=False)  # refuses wrong names
             return ()
-        self._sensing = with_number(sensing, "forecast", 1.0)
-        self._randomization = Randomization.of(self.randomization, self.task.config, self._sensing)
-        by_team = teams_differ(self._sensing, self._randomization.sensing)
+        forecast = with_number(sensing, "forecast", 1.0)
+        randomization = Randomization.of(self.randomization, self.task.config, forecast)
+        together = forecast_together(forecast, randomization.sensing)
+        teams = forecasting_teams(self.task, assignment, asked, together=together)
+        if not teams:
+            return ()
+        self._sensing, self._randomization = forecast, randomization
+        by_team = teams_differ(forecast, randomization.sensing)
         self.assignment = assign(self.task, controllers, self.worlds, by_team=by_team)
         return teams if by_team else teams_of(self.task.robots)
 

@@ -65,22 +65,26 @@ def new_senses(
     return ModelSenses.new(sensing, frame, rng)
 
 
-def forecasting_teams(task: Task, assignment: Assignment, asked: Sequence[str]) -> tuple[str, ...]:
-    """Return the teams that are asked to forecast, and those whose policies play from a forecast.
+def forecasting_teams(
+    task: Task, assignment: Assignment, asked: Sequence[str] | None, *, together: bool
+) -> tuple[str, ...]:
+    """Return the teams that forecast: as asked, or as their policies play from a forecast.
 
-    One policy that needs it is enough. Otherwise all that look have to, and learners do not: what
-    they observe does not depend on their teammates.
+    Teams with a policy that needs it always do. If nothing is asked for, those do, too, in which
+    all that look play from one; learners do not: what they observe depends on no other robot.
 
     Args:
         task: the task that is played.
         assignment: policies and their robots.
-        asked: names of teams.
+        asked: names of teams; None to let the policies decide.
+        together: whether both teams forecast or none, so that one that need not waits for the
+            other.
 
     Raises:
         ValueError: a name that is no team's, or that of a team without robots.
     """
     teams = list(teams_of(task.robots))
-    if isinstance(asked, str) or (unknown := sorted(set(asked) - set(teams), key=str)):
+    if isinstance(asked, str) or (unknown := sorted(set(asked or ()) - set(teams), key=str)):
         got = asked if isinstance(asked, str) else unknown
         raise ValueError(f"forecasting: expected some of {teams}, got {got!r}")
     learners = teams_of(task.robots[robot] for robot in assignment.learners)
@@ -89,13 +93,17 @@ def forecasting_teams(task: Task, assignment: Assignment, asked: Sequence[str]) 
         if group.policy.observes != "nothing":
             for team in teams_of(task.robots[robot] for robot in group.robots):
                 looking[team].append(group.policy)
-    found = {
+    found = {team for team in teams if any(policy.needs_forecast for policy in looking[team])}
+    if asked is not None:
+        return tuple(sorted({*found, *asked}))
+    ready = {
         team
-        for team, policies in looking.items()
-        if any(policy.needs_forecast for policy in policies)
-        or (policies and team not in learners and all(policy.forecasts for policy in policies))
+        for team in teams
+        if team not in learners and all(policy.forecasts for policy in looking[team])
     }
-    return tuple(sorted({*found, *asked}))
+    if not together or ready | found == set(teams):
+        found |= {team for team in ready if looking[team]}
+    return tuple(sorted(found))
 
 
 def teams_of(robots: Iterable[str]) -> tuple[str, ...]:
@@ -130,6 +138,16 @@ def teams_differ(sensing: SensorModel | Sensing | None, ranges: NumberRanges | N
     return _may_be_on("own_cameras", sensing, ranges) or (
         _may_be_on("forecast", sensing, ranges) and not is_shared
     )
+
+
+def forecast_together(sensing: Sensing, ranges: NumberRanges | None) -> bool:
+    """Return whether both teams forecast or none.
+
+    Args:
+        sensing: what robots know of the true state, with `forecast`.
+        ranges: ranges of the numbers of a `Sensing`.
+    """
+    return _may_be_on("own_cameras", sensing, ranges) or not teams_differ(sensing, ranges)
 
 
 def _may_be_on(name: str, sensing: Sensing, ranges: NumberRanges | None) -> bool:

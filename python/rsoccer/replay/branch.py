@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from rsoccer import checks
 from rsoccer._core import Simulator, Threads
 from rsoccer.arrays import Array, Floats
 from rsoccer.controllers import Controllers
-from rsoccer.frame import Frame, team_of
+from rsoccer.frame import Frame
 from rsoccer.matches import Matches
-from rsoccer.matches.sensing import teams_of
-from rsoccer.policies import Policy, make_policy
 from rsoccer.replay.container import ReplayError
 from rsoccer.replay.recorded import Recorded
 from rsoccer.replay.resume import LEARNER, REFUSALS, made_again, resume
@@ -57,7 +53,7 @@ def branch(
     Raises:
         ReplayError: no such frame, a frame at which the match has ended, a recording that cannot be
             played again up to it, another version of the physics, a task or senses that have to be
-            given, or a policy that expects a forecast in a team that had none.
+            given, or a policy that needs a forecast in a team that had none.
     """
     episode = _episode(replay, frame)
     try:
@@ -66,8 +62,6 @@ def branch(
         state = None
         if before:
             state = _played_again(replay, max(before), frame, task, recorded, sensing)
-        if state is not None:
-            controllers = _as_recorded(task, controllers, replay.forecasting)
         matches = Matches(
             task,
             seed=seed,
@@ -94,19 +88,6 @@ def branch(
     except REFUSALS as error:
         raise ReplayError(f"branch: {error}") from error
     return matches
-
-
-def _as_recorded(task: Task, controllers: Controllers, forecasting: Sequence[str]) -> Controllers:
-    """The controllers, where policies play without a forecast in teams that had none."""
-    made: dict[str, Policy] = {}
-    found = dict(controllers)
-    for key, controller in controllers.items():
-        teams = teams_of(robot for robot in task.robots if key in ("all", robot, team_of(robot)))
-        if isinstance(controller, str) and set(teams) - set(forecasting):
-            policy = made.setdefault(controller, make_policy(controller, task))
-            policy.forecasts &= policy.needs_forecast
-            found[key] = policy
-    return found
 
 
 def has_exact_start(replay: Recorded, frame: int) -> bool:

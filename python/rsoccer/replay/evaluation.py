@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rsoccer.evaluate import first_seed, matches_per_side
-from rsoccer.evaluate.episodes import LearnerPolicy, forecasting_for
+from rsoccer.evaluate.episodes import LearnerPolicy
 from rsoccer.lineup import lineup, opponents_of, task_for
 from rsoccer.matches import Matches
 from rsoccer.policies import PolicyLike, make_policy, name_of
@@ -69,7 +69,7 @@ def record_last_match(
         autoreset="disabled",
         simulator=simulator,
         sensing=sensing,
-        forecasting=forecasting_for(task, controllers, own_policy),
+        forecasting=own_policy,
         randomization=randomization,
     )
     with closed_after(world, simulator):

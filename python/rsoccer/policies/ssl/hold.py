@@ -40,6 +40,7 @@ class Receive(Hold):
     """A script that stands with the dribbler on and turns to the ball."""
 
     observes: Observes = "view"
+    forecasts = True
 
     def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
         """Return actions (n, robots, 5); the robots turn by the sine of the heading error."""

@@ -69,6 +69,7 @@ class OpponentPool(PolicyMix):
         super().__init__(task, fixed, clock)
         self.observes = "observation"
         self.forecasts &= not sum(selves)  # past selves have learned what the learners know
+        self.needs_forecast &= self.forecasts
         self.latest: Network | None = None
         self.past: list[Network] = []
         self.slots = PoolSlots(POOL_SIZE)

@@ -57,6 +57,7 @@ class PolicyMix(Policy):
         # A team forecasts in all worlds or in none, and some have learned without a forecast.
         looking = [each for each in self._policies if each.observes != "nothing"]
         self.forecasts = bool(looking) and all(each.forecasts for each in looking)
+        self.needs_forecast = self.forecasts and any(each.needs_forecast for each in looking)
         self._shares: Doubles = np.array(list(shares.values()), np.float64)
         self._shares /= max(self._shares.sum(), 1e-12)
         self._clock = clock
