@@ -15,7 +15,16 @@ from typing import Any, Final
 
 import numpy as np
 
-from benches.transfer_places import HOME, PLACES, TRIALS, Place, Trial, as_played, likeness
+from benches.transfer_places import (
+    HOME,
+    PLACES,
+    TRIALS,
+    Place,
+    Trial,
+    as_played,
+    is_forecast,
+    likeness,
+)
 from rsoccer import files
 from rsoccer.drive import Network, Settings
 from rsoccer.evaluate.episodes import EpisodeRunner
@@ -58,10 +67,12 @@ def play(
         sensing: what robots know.
     """
     opponent = None if trial.opponent is None else make_policy(trial.opponent, task)
+    policy = make_policy(trial.policy, task)
+    policy.forecasts = is_forecast(trial)  # the place's senses have a forecast, or none plays
     runner = EpisodeRunner(
         task,
         lineup(task, LEARN, opponent, side),
-        make_policy(trial.policy, task),
+        policy,
         worlds=1 if network is not None else len(episodes),
         threads=1,
         simulator=network,

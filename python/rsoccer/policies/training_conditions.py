@@ -1,7 +1,8 @@
 """Senses and varied numbers of a training, in the metadata of a policy file.
 
 They tell what a policy has learned to cope with. They do not change how it plays, but one that has
-learned behind a forecast needs it: matches with senses give it to its team (`Policy.needs_forecast`).
+learned behind a forecast needs it: matches with senses give it to its team
+(`Policy.needs_forecast`).
 """
 
 from __future__ import annotations
