@@ -66,3 +66,6 @@ def test_what_cannot_be_played_again_is_refused() -> None:
         replayed(replace(entry, versions={"package": "0", "physics": 1}), TASK)
     with pytest.raises(ValueError, match=r"is not the file that was measured"):
         replayed(replace(entry, digest="0" * 64), TASK)
+    for away in ("away.safetensors", "a_name_of_another_package"):
+        with pytest.raises(FileNotFoundError, match=f"the file that was measured, {away}, here"):
+            replayed(replace(entry, policy=away, digest="0" * 64), TASK)

@@ -10,7 +10,7 @@ from rsoccer.benchmark.entry import Entry, Row, digest
 from rsoccer.benchmark.machine import machine
 from rsoccer.benchmark.measuring import measured
 from rsoccer.benchmark.validation import is_current
-from rsoccer.policies import is_module_text, is_registered
+from rsoccer.policies import file_of, is_module_text, is_registered
 from rsoccer.policies.trained import BEST
 
 _EXACT: Final = ("wins", "draws", "losses", "score", "low", "high")
@@ -102,6 +102,12 @@ def _checked_policy(entry: Entry, policy: str | os.PathLike[str] | None) -> str:
     code = is_module_text(played) or is_module_text(entry.policy)
     if played != entry.policy and (code or not entry.digest):
         raise ValueError(f"policy: expected that of the entry, {entry.policy}, got {played}")
+    path = None if code else file_of(played)
+    if path is not None and not path.exists():
+        raise FileNotFoundError(
+            f"policy: expected the file that was measured, {played}, here, or its path, or the "
+            "import of the module that registers this name"
+        )
     if entry.digest != digest(played):
         raise ValueError(f"replay: {played} is not the file that was measured")
     return played

@@ -86,7 +86,7 @@ def check_policy_names(names: Iterable[str | None]) -> None:
             )
         raise ValueError(
             f"policy: expected the name of a policy or a task, a policy file (*{SUFFIX}, *.onnx), "
-            f"or in rsoccer watch a replay (*{REPLAY_SUFFIX}), got {name}"
+            f"module:name of code, or in rsoccer watch a replay (*{REPLAY_SUFFIX}), got {name}"
         )
 
 
