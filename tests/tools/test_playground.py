@@ -39,8 +39,11 @@ def test_choices_have_scenes_and_policies_of_the_package() -> None:
         assert league.task in rsoccer.list_tasks()
         assert given["scripted"] is league.field.startswith("ssl")
         for policy, shown in zip(league.policies, given["policies"], strict=True):
-            assert base64.b64decode(shown["file"]) == (FOLDER / policy.file).read_bytes()
+            file = base64.b64decode(values["files"][shown["file"]])
+            assert file == (FOLDER / policy.file).read_bytes()
+        assert (given["play"] == "self_play") == league.task.endswith("SelfPlay-v0")
     assert sum(len(league.policies) for league in LEAGUES) >= 3
+    assert {league.play for league in LEAGUES} == {"match", "self_play"}
 
 
 def test_keys_are_those_of_play() -> None:

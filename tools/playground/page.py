@@ -54,25 +54,41 @@ class League(NamedTuple):
     """task whose matches these are, for saved replays"""
     policies: tuple[Policy, ...] = ()
     """shipped policies with observations of such matches"""
+    play: str = "match"
+    """what the module plays: "match", or "self_play" for a task"""
 
 
+_SSL: Final = (Policy("best", "best of SSLSelfPlay-v0", "SSLSelfPlay-v0.safetensors"),)
+_VSS: Final = (
+    Policy("best", "best of VSSSelfPlay-v0", "VSSSelfPlay-v0.safetensors"),
+    Policy("multi", "best of VSSMulti-v0", "VSSMulti-v0.safetensors"),
+    Policy("robust", "best:robust of VSS-v0", "VSS-v0.robust.safetensors"),
+)
 LEAGUES: Final = (
     League("ssl_b", "SSL, 6 v 6 (division B)", "ssl_b", 6, "SSLMatch-v0"),
     League("ssl_a", "SSL, 11 v 11 (division A)", "ssl_a", 11, "SSLMatch-v0"),
-    League(
-        *("ssl_3", "SSL, 3 v 3 on a small field", "ssl_challenge", 3, "SSLMatch-v0"),
-        (Policy("best", "best of SSLSelfPlay-v0", "SSLSelfPlay-v0.safetensors"),),
-    ),
-    League(
-        *("vss", "VSSS, 3 v 3", "vss_3v3", 3, "VSSMatch-v0"),
-        (
-            Policy("best", "best of VSSSelfPlay-v0", "VSSSelfPlay-v0.safetensors"),
-            Policy("multi", "best of VSSMulti-v0", "VSSMulti-v0.safetensors"),
-            Policy("robust", "best:robust of VSS-v0", "VSS-v0.robust.safetensors"),
-        ),
-    ),
+    League("ssl_3", "SSL, 3 v 3 on a small field", "ssl_challenge", 3, "SSLMatch-v0", _SSL),
+    League("vss", "VSSS, 3 v 3", "vss_3v3", 3, "VSSMatch-v0", _VSS),
     # No shipped policy observes ten robots: people play, and policy files.
     League("vss_5", "VSSS, 5 v 5", "vss_5v5", 5, "VSSMatch-v0"),
+    League(
+        "ssl_self_play",
+        "Task SSLSelfPlay-v0: until a goal",
+        field="ssl_challenge",
+        robots=3,
+        task="SSLSelfPlay-v0",
+        policies=_SSL,
+        play="self_play",
+    ),
+    League(
+        "vss_self_play",
+        "Task VSSSelfPlay-v0: until a goal",
+        field="vss_3v3",
+        robots=3,
+        task="VSSSelfPlay-v0",
+        policies=_VSS,
+        play="self_play",
+    ),
 )
 """Choices of the page, the first one is shown at first."""
 
@@ -106,6 +122,9 @@ def data() -> dict[str, Any]:
         "version": rsoccer.__version__,
         "halfSeconds": HALF_SECONDS,
         "leagues": [_league(league) for league in LEAGUES],
+        "files": {
+            policy.file: _encoded(policy.file) for each in LEAGUES for policy in each.policies
+        },
         "scenes": {name: page.scene(config) for name, config in configs.items()},
         "areas": {name: match_page.areas(config.field) for name, config in configs.items()},
         "floor": match_page.FLOOR,
@@ -131,13 +150,11 @@ def _config(league: League) -> SimConfig:
 
 def _league(league: League) -> dict[str, Any]:
     """A choice with its policies."""
-    policies = [
-        {
-            "id": policy.id,
-            "name": policy.name,
-            "file": base64.b64encode((FOLDER / policy.file).read_bytes()).decode(),
-        }
-        for policy in league.policies
-    ]
+    policies = [policy._asdict() for policy in league.policies]
     scripted = _config(league).robot.drive == "omni"
     return {**league._asdict(), "policies": policies, "scripted": scripted}
+
+
+def _encoded(name: str) -> str:
+    """The file of a shipped policy in base64."""
+    return base64.b64encode((FOLDER / name).read_bytes()).decode()

@@ -1,7 +1,7 @@
 //! One whole match without Python: physics, referee, scripted SSL teams, networks and people.
 //!
 //! A [`Match`] is what `rsoccer` plays as `SSLMatch-v0` and `VSSMatch-v0`, for one world at a time and in programs
-//! that have no Python, such as a page in a browser. A [`Side`] drives a team; a person may drive single robots
+//! that have no Python, such as a page in a browser; and the self-play tasks of both leagues. A [`Side`] drives a team; a person may drive single robots
 //! of it. The same setup and the same calls give the same bytes on every platform.
 
 mod actions;
@@ -13,6 +13,7 @@ mod network;
 mod observations;
 mod person;
 mod player;
+mod self_play;
 mod setup;
 mod side;
 mod whole_match;
@@ -24,6 +25,6 @@ pub use network::Network;
 pub use observations::Observations;
 pub use person::Controls;
 pub use player::Player;
-pub use setup::Setup;
+pub use setup::{Play, Setup};
 pub use side::Side;
 pub use whole_match::{Decision, Match};

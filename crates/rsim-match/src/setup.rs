@@ -2,13 +2,27 @@
 
 use rsim_core::{Field, League, SimConfig};
 use rsim_referee::config::RefereeConfig;
+use rsim_referee::rules;
 use serde::{Deserialize, Serialize};
 
 use crate::conditions::Conditions;
 use crate::error::MatchError;
+use crate::self_play::EPISODE_SECONDS;
 
 /// Most robots of a team.
 const MAX_ROBOTS: usize = rsim_teams::MAX_ROBOTS;
+
+/// What is played.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Play {
+    /// A whole match under the league's referee.
+    #[default]
+    Match,
+    /// The league's self-play task, `VSSSelfPlay-v0` or `SSLSelfPlay-v0`: episodes that begin at random places
+    /// and end with a goal or after 30 s. Only goals are judged; a ball that leaves an SSL field is put back.
+    SelfPlay,
+}
 
 /// Field, teams and conditions of a match.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -23,7 +37,10 @@ pub struct Setup {
     /// Seed of all that is drawn.
     #[serde(default)]
     pub seed: u32,
-    /// Playing time of a half, s.
+    /// What is played.
+    #[serde(default)]
+    pub play: Play,
+    /// Playing time of a half of a match, s.
     #[serde(default = "half_seconds")]
     pub half_seconds: f32,
     /// Physics and senses.
@@ -39,7 +56,8 @@ impl Setup {
     /// A match with default conditions.
     pub fn new(field: &str, blue: usize, yellow: usize, seed: u32) -> Self {
         let (field, conditions) = (field.to_owned(), Conditions::default());
-        Self { field, blue, yellow, seed, half_seconds: half_seconds(), conditions }
+        let play = Play::default();
+        Self { field, blue, yellow, seed, play, half_seconds: half_seconds(), conditions }
     }
 
     /// Configuration of the physics.
@@ -73,7 +91,16 @@ impl Setup {
         };
         let rules = RefereeConfig::preset(preset).expect("a preset's name");
         let half_seconds = self.half_seconds;
-        RefereeConfig { half_seconds, extra_half_seconds: 0.0, shootout_kicks: 0.0, ..rules }
+        let rules =
+            RefereeConfig { half_seconds, extra_half_seconds: 0.0, shootout_kicks: 0.0, ..rules };
+        match self.play {
+            Play::Match => rules,
+            Play::SelfPlay => {
+                let names = rules::of_league(rules.league).iter().map(|rule| rule.name);
+                let off = names.filter(|name| *name != "GOAL").map(str::to_owned).collect();
+                RefereeConfig { half_seconds: EPISODE_SECONDS, halves: 1.0, off, ..rules }
+            }
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use rsim_core::streams::words;
 use rsim_core::{Batch, Knowledge, SimConfig};
 use rsim_referee::game::Game;
 use rsim_referee::statistics::Statistics;
-use rsim_referee::{Decisions, Referee, Team};
+use rsim_referee::{Decisions, Referee, Team, Vector};
 
 use crate::actions::Actions;
 use crate::conditions::Conditions;
@@ -15,7 +15,8 @@ use crate::network::Network;
 use crate::observations::robots_of;
 use crate::person::Controls;
 use crate::player::Player;
-use crate::setup::Setup;
+use crate::self_play;
+use crate::setup::{Play, Setup};
 use crate::side::{Known, Side};
 
 /// One match.
@@ -32,6 +33,8 @@ pub struct Match {
     /// Controls of people, by robot.
     people: Vec<Option<Controls>>,
     row: Vec<f32>,
+    /// Row of a world in which nothing has moved yet.
+    rest: Vec<f32>,
     before: Vec<f32>,
     restart: Vec<f32>,
     /// Rows that each team knows.
@@ -61,6 +64,7 @@ impl Match {
         let batch = Batch::new(&config, 1, 1)?;
         let mut row = vec![0.0; config.row_size()];
         batch.read(&mut row);
+        let rest = row.clone();
         referee.line_up(&mut row)?;
         let kickoff = Team::BOTH[usize::from(drawn(setup.seed, 0) & 1 == 1)];
         let mut created = Self {
@@ -68,6 +72,7 @@ impl Match {
             commands: vec![0.0; config.command_size()],
             before: row.clone(),
             restart: row.clone(),
+            rest,
             known: [row.clone(), row.clone()],
             row,
             game: Game::new(kickoff),
@@ -81,8 +86,13 @@ impl Match {
             actions,
             referee,
         };
-        created.place()?;
-        created.referee.begin(&created.row, &mut created.game)?;
+        match created.setup.play {
+            Play::Match => {
+                created.place()?;
+                created.referee.begin(&created.row, &mut created.game)?;
+            }
+            Play::SelfPlay => created.begin_episode()?,
+        }
         Ok(created)
     }
 
@@ -182,12 +192,41 @@ impl Match {
             &mut self.restart,
             &mut self.decisions,
         )?;
-        if self.decisions.restarts {
-            self.batch.restart(&[true], &self.restart, &mut self.row)?;
-            self.referee.begin(&self.row, &mut self.game)?;
+        match self.setup.play {
+            Play::Match if self.decisions.restarts => {
+                self.batch.restart(&[true], &self.restart, &mut self.row)?;
+                self.referee.begin(&self.row, &mut self.game)?;
+            }
+            Play::Match => (),
+            Play::SelfPlay if self_play::has_ended(&self.game) => self.begin_episode()?,
+            Play::SelfPlay => self.put_back(),
         }
         self.sense();
         Ok(())
+    }
+
+    /// Begins an episode of self-play at random places.
+    fn begin_episode(&mut self) -> Result<(), MatchError> {
+        self.row.copy_from_slice(&self.rest);
+        let key = drawn(self.setup.seed, 6) ^ self.steps;
+        self_play::scatter(&self.config, key, &mut self.row);
+        self.place()?;
+        self.game = self_play::begun(&self.game, self.config.time_step);
+        self.referee.begin(&self.row, &mut self.game)?;
+        Ok(())
+    }
+
+    /// Puts a ball that has left the field back, to the nearest place that robots leave free.
+    fn put_back(&mut self) {
+        let ball = Vector::new(self.row[0], self.row[1]);
+        let radius = self.config.ball.radius;
+        for place in self_play::places_inside(&self.config.field, ball, radius) {
+            let mut columns = [0.0; BALL_COLUMNS.len()];
+            (columns[0], columns[1]) = (place.x, place.y);
+            if self.batch.reposition_balls(&[true], &columns, &mut self.row).is_ok() {
+                return;
+            }
+        }
     }
 
     /// Fills the commands of all robots.
@@ -396,6 +435,48 @@ mod tests {
             one.game().last_touch.is_some()
         });
         assert!(touched, "somebody plays the ball");
+    }
+
+    #[test]
+    fn self_play_begins_anew_at_random_places_after_a_goal_and_after_its_time() {
+        let begun = |field: &str, seed| {
+            let play = Play::SelfPlay;
+            Match::new(Setup { play, ..Setup::new(field, 3, 3, seed) }).expect("valid")
+        };
+        let mut one = begun("vss_3v3", 4);
+        assert_ne!(one.row(), begun("vss_3v3", 5).row());
+        assert!(one.game().in_play);
+        let start = one.row().to_vec();
+        one.move_ball([0.7, 0.0], [2.0, 0.0]).expect("a free place");
+        let scored = (0..40).any(|_| {
+            play(&mut one, 1);
+            one.game().score[Team::Blue] == 1
+        });
+        assert!(scored && one.game().in_play);
+        let after = one.row().to_vec();
+        assert!(after[0].abs() < 0.65 && after != start, "a new start");
+        let left = one.game().stage_steps_left;
+        assert_eq!(left, 1200);
+        play(&mut one, 1200);
+        assert_eq!((one.game().stage_steps_left, one.game().score[Team::Blue]), (1200, 1));
+        assert_ne!(one.row(), after);
+    }
+
+    #[test]
+    fn in_self_play_a_ball_that_leaves_an_ssl_field_is_put_back_and_nothing_is_whistled() {
+        let setup = Setup { play: Play::SelfPlay, ..Setup::new("ssl_challenge", 3, 3, 1) };
+        let mut one = Match::new(setup).expect("valid");
+        one.set_scripted(Team::Blue, 1.0).expect("SSL");
+        one.set_scripted(Team::Yellow, 0.5).expect("SSL");
+        let across = one.config().field.half_width();
+        one.move_ball([0.0, across - 0.1], [0.0, 3.0]).expect("a free place");
+        let mut farthest = 0.0_f32;
+        for _ in 0..2400 {
+            play(&mut one, 1);
+            farthest = farthest.max(one.row()[1].abs());
+            assert!(one.game().in_play);
+        }
+        assert!(farthest < across + 0.03, "{farthest}");
     }
 
     #[test]

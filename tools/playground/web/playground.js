@@ -68,7 +68,7 @@ class Playground {
   begin(numbers = null) {
     const { league, choices, data } = this;
     const count = league.robots;
-    const setup = { field: league.field, blue: count, yellow: count, seed: choices.seed, conditions: conditionsOf(choices.conditions) };
+    const setup = { field: league.field, play: league.play, blue: count, yellow: count, seed: choices.seed, conditions: conditionsOf(choices.conditions) };
     const created = this.engine.newMatch(setup);
     try {
       for (const team of [0, 1]) this.giveSide(created, team);
@@ -118,7 +118,7 @@ class Playground {
 
   policyFile(id) {
     const found = this.league.policies.find((policy) => policy.id === id);
-    found.bytes ??= fromBase64(found.file);
+    found.bytes ??= fromBase64(this.data.files[found.file]);
     return found.bytes;
   }
 
@@ -277,7 +277,7 @@ class Playground {
     $("goals-blue").textContent = report.score[0];
     $("goals-yellow").textContent = report.score[1];
     $("clock").textContent = timeLeft(report.seconds_left || (report.stage.endsWith("_PRE") ? this.data.halfSeconds : 0));
-    $("stage").textContent = stageText(report);
+    $("stage").textContent = this.league.play === "self_play" ? "until a goal" : stageText(report);
     $("command").textContent = commandText(report);
     $("play").textContent = this.paused ? "Play" : "Pause";
     const team = sideOf(report.command === "NORMAL_START" || report.command === "STOP" ? report.kick : report.command);
