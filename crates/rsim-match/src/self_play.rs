@@ -9,7 +9,7 @@ use rsim_referee::{Team, Vector};
 
 /// Longest episode, s.
 pub(crate) const EPISODE_SECONDS: f32 = 30.0;
-/// Distance from the line of a ball that is put back, m (SSL rules, "Ball Placement").
+/// Distance from the line of a ball that is repositioned, m (SSL rules, "Ball Placement").
 const INSIDE: f32 = 0.2;
 /// Places along the line that are tried for it, and their distance, m.
 const TRIED: usize = 40;

@@ -20,7 +20,7 @@ pub enum Play {
     #[default]
     Match,
     /// The league's self-play task, `VSSSelfPlay-v0` or `SSLSelfPlay-v0`: episodes that begin at random places
-    /// and end with a goal or after 30 s. Only goals are judged; a ball that leaves an SSL field is put back.
+    /// and end with a goal or after 30 s. Only goals are judged; a ball that leaves an SSL field is repositioned.
     SelfPlay,
 }
 

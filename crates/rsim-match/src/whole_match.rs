@@ -199,7 +199,7 @@ impl Match {
             }
             Play::Match => (),
             Play::SelfPlay if self_play::has_ended(&self.game) => self.begin_episode()?,
-            Play::SelfPlay => self.put_back(),
+            Play::SelfPlay => self.reposition_ball(),
         }
         self.sense();
         Ok(())
@@ -216,8 +216,8 @@ impl Match {
         Ok(())
     }
 
-    /// Puts a ball that has left the field back, to the nearest place that robots leave free.
-    fn put_back(&mut self) {
+    /// Repositions a ball that has left the field, to the nearest place that robots leave free.
+    fn reposition_ball(&mut self) {
         let ball = Vector::new(self.row[0], self.row[1]);
         let radius = self.config.ball.radius;
         for place in self_play::places_inside(&self.config.field, ball, radius) {
@@ -463,7 +463,7 @@ mod tests {
     }
 
     #[test]
-    fn in_self_play_a_ball_that_leaves_an_ssl_field_is_put_back_and_nothing_is_whistled() {
+    fn in_self_play_a_ball_that_leaves_an_ssl_field_is_repositioned_and_nothing_is_whistled() {
         let setup = Setup { play: Play::SelfPlay, ..Setup::new("ssl_challenge", 3, 3, 1) };
         let mut one = Match::new(setup).expect("valid");
         one.set_scripted(Team::Blue, 1.0).expect("SSL");
