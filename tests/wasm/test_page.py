@@ -84,6 +84,31 @@ def test_each_league_plays_with_each_side(tmp_path: Path) -> None:
     assert all(steps >= 400 and not text for _, _, steps, text in played)
 
 
+def test_a_task_goes_on_from_goal_to_goal_and_from_a_link(tmp_path: Path) -> None:
+    result = shown(
+        """
+        const element = document.getElementById("league");
+        element.value = "vss_self_play";
+        element.dispatchEvent(new Event("change"));
+        for (let step = 0; step < 4000; step++) player.step();
+        player.showState();
+        const text = (id) => document.getElementById(id).textContent;
+        const { score, in_play, stage } = player.report;
+        const words = [text("stage"), text("command")];
+        const link = player.link();
+        player.restore(link);
+        const choices = player.choices.league;
+        return { score, in_play, stage, words, choices, left: player.match.report().seconds_left };
+        """,
+        tmp_path,
+    )
+    assert sum(result["score"]) >= 3
+    assert result["in_play"]
+    assert result["words"] == ["until a goal", ""]
+    assert result["choices"] == "vss_self_play"
+    assert 0.0 < result["left"] <= 30.0
+
+
 @pytest.mark.parametrize(("width", "height"), [(1280, 900), (420, 860)])
 def test_a_person_plays_and_pulls_the_ball(tmp_path: Path, width: int, height: int) -> None:
     result = shown(
