@@ -9,6 +9,8 @@ use rsim_referee::{Team, Vector};
 
 /// Longest episode, s.
 pub(crate) const EPISODE_SECONDS: f32 = 30.0;
+/// Time after which a ball that is stuck ends an episode of VSSS, s: there the task has a free ball.
+pub(crate) const STUCK_SECONDS: f32 = 10.0;
 /// Distance from the line of a ball that is repositioned, m (SSL rules, "Ball Placement").
 const INSIDE: f32 = 0.2;
 /// Places along the line that are tried for it, and their distance, m.
@@ -45,7 +47,7 @@ pub(crate) fn begun(game: &Game, time_step: f32) -> Game {
     next
 }
 
-/// Whether an episode has ended: the goals of its referee stop play, and so does the end of its time.
+/// Whether an episode has ended: a goal stops play, and so do a ball that is stuck and the end of its time.
 pub(crate) fn has_ended(game: &Game) -> bool {
     game.command != Command::ForceStart || game.stage != Stage::FirstHalf
 }

@@ -1,13 +1,13 @@
 //! A match before it begins, as text.
 
 use rsim_core::{Field, League, SimConfig};
-use rsim_referee::config::RefereeConfig;
+use rsim_referee::config::{League as RuleLeague, RefereeConfig};
 use rsim_referee::rules;
 use serde::{Deserialize, Serialize};
 
 use crate::conditions::Conditions;
 use crate::error::MatchError;
-use crate::self_play::EPISODE_SECONDS;
+use crate::self_play::{EPISODE_SECONDS, STUCK_SECONDS};
 
 /// Most robots of a team.
 const MAX_ROBOTS: usize = rsim_teams::MAX_ROBOTS;
@@ -20,7 +20,7 @@ pub enum Play {
     #[default]
     Match,
     /// The league's self-play task, `VSSSelfPlay-v0` or `SSLSelfPlay-v0`: episodes that begin at random places
-    /// and end with a goal or after 30 s. Only goals are judged; a ball that leaves an SSL field is repositioned.
+    /// and end with a goal, after 30 s, or in VSSS with a ball that is stuck for 10 s; a ball that leaves an SSL field is repositioned.
     SelfPlay,
 }
 
@@ -97,8 +97,19 @@ impl Setup {
             Play::Match => rules,
             Play::SelfPlay => {
                 let names = rules::of_league(rules.league).iter().map(|rule| rule.name);
-                let off = names.filter(|name| *name != "GOAL").map(str::to_owned).collect();
-                RefereeConfig { half_seconds: EPISODE_SECONDS, halves: 1.0, off, ..rules }
+                // In SSL self-play nothing ends but by a goal or its time.
+                let judged: &[&str] = match rules.league {
+                    RuleLeague::Ssl => &["GOAL"],
+                    RuleLeague::Vsss => &["GOAL", "NO_PROGRESS_IN_GAME"],
+                };
+                let off = names.filter(|name| !judged.contains(name)).map(str::to_owned).collect();
+                RefereeConfig {
+                    half_seconds: EPISODE_SECONDS,
+                    halves: 1.0,
+                    no_progress_seconds: STUCK_SECONDS,
+                    off,
+                    ..rules
+                }
             }
         }
     }
