@@ -73,7 +73,7 @@ LEAGUES: Final = (
     League("vss_5", "VSSS, 5 v 5", "vss_5v5", 5, "VSSMatch-v0"),
     League(
         "ssl_self_play",
-        "Task SSLSelfPlay-v0: until a goal",
+        "Task SSLSelfPlay-v0",
         field="ssl_challenge",
         robots=3,
         task="SSLSelfPlay-v0",
@@ -82,7 +82,7 @@ LEAGUES: Final = (
     ),
     League(
         "vss_self_play",
-        "Task VSSSelfPlay-v0: until a goal",
+        "Task VSSSelfPlay-v0",
         field="vss_3v3",
         robots=3,
         task="VSSSelfPlay-v0",
