@@ -55,7 +55,7 @@ class League(NamedTuple):
     policies: tuple[Policy, ...] = ()
     """shipped policies with observations of such matches"""
     play: str = "match"
-    """what the module plays: "match", or "self_play" for a task"""
+    """kind of play of the module: "match", or "self_play" for a task"""
 
 
 _SSL: Final = (Policy("best", "best of SSLSelfPlay-v0", "SSLSelfPlay-v0.safetensors"),)

@@ -12,7 +12,7 @@ use crate::self_play::{EPISODE_SECONDS, STUCK_SECONDS};
 /// Most robots of a team.
 const MAX_ROBOTS: usize = rsim_teams::MAX_ROBOTS;
 
-/// What is played.
+/// Kind of play.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Play {
@@ -37,7 +37,7 @@ pub struct Setup {
     /// Seed of all that is drawn.
     #[serde(default)]
     pub seed: u32,
-    /// What is played.
+    /// Kind of play.
     #[serde(default)]
     pub play: Play,
     /// Playing time of a half of a match, s.
