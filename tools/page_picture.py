@@ -9,7 +9,8 @@ import numpy as np
 from PIL import Image
 
 import rsoccer
-from rsoccer.replay import Recorder, Replay, record_replay
+from rsoccer.policies import make_policy
+from rsoccer.replay import Replay, record_replay
 from rsoccer.replay.page import to_html
 from tools import whole_matches
 from tools.paths import DOCS
@@ -18,7 +19,6 @@ SIZE = (1180, 830)
 MATCH_SIZE = (1340, 860)
 """Size of a page with a referee, whose panel has statistics too."""
 SEED = 2
-SENSED_SECONDS = 12.0
 BEFORE_GOAL = 14
 """Frames between the moment and the second goal of the match."""
 AFTER_EVENT = 40
@@ -51,24 +51,14 @@ def sensed() -> Replay:
 
     No team forecasts, so that ghosts show what was seen.
     """
-    matches = rsoccer.Matches(
-        rsoccer.make_task("SSLSelfPlay-v0", n_blue=6, n_yellow=6),
-        seed=SEED,
-        controllers={"all": "scripted"},
-        autoreset="disabled",
-        sensing=rsoccer.Sensing("rc2021", delay=0.1),
-        forecasting=(),
+    task = rsoccer.make_task("SSLSelfPlay-v0", n_blue=6, n_yellow=6)
+    sensing = rsoccer.Sensing("rc2021", delay=0.1)
+    script = make_policy("scripted", task)
+    script.forecasts = False
+    teams = {"blue": script, "yellow": script}
+    return record_replay(
+        task, teams, seed=SEED, seconds=12.0, names=("BLUE", "YELLOW"), sensing=sensing
     )
-    recorder = Recorder(matches, names=("BLUE", "YELLOW"))
-    matches.reset()
-    recorder.begin()
-    nobody = np.zeros((1, 0, matches.action_size), np.float32)
-    for _ in range(round(SENSED_SECONDS / matches.task.config.time_step)):
-        if matches.done[0]:
-            matches.reset()
-            recorder.begin()
-        recorder.add(matches.step(nobody))
-    return recorder.replay()
 
 
 def farthest(replay: Replay) -> int:

@@ -1,8 +1,9 @@
 //! One whole match without Python: physics, referee, scripted SSL teams, networks and people.
 //!
-//! A [`Match`] is what `rsoccer` plays as `SSLMatch-v0` and `VSSMatch-v0`, for one world at a time and in programs
-//! that have no Python, such as a page in a browser; and the self-play tasks of both leagues. A [`Side`] drives a team; a person may drive single robots
-//! of it. The same setup and the same calls give the same bytes on every platform.
+//! A [`Match`] is what `rsoccer` plays as `SSLMatch-v0` and `VSSMatch-v0`, or as the self-play tasks of both
+//! leagues, for one world at a time and in programs that have no Python, such as a page in a browser. A [`Side`]
+//! drives a team; a person may drive single robots of it. The same setup and the same calls give the same bytes on
+//! every platform.
 
 mod actions;
 mod conditions;

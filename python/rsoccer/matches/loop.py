@@ -30,6 +30,7 @@ from rsoccer.matches.outcome import Episodes, Outcome
 from rsoccer.matches.paused import PausedWorlds
 from rsoccer.matches.sensing import (
     ON,
+    check_forecasting,
     forecast_together,
     forecasting_teams,
     may_forecast,
@@ -819,15 +820,16 @@ class Matches:
         self, controllers: Controllers | None, asked: Sequence[str] | Policy | None
     ) -> tuple[str, ...]:
         """Let teams forecast that are asked to or whose policies play from it, and return them."""
+        if asked is not None and not isinstance(asked, Policy):
+            check_forecasting(self.task, asked)
+        sensing, ranges = simulated(self._sensing), self._randomization.sensing
+        if sensing is None or may_forecast(sensing, ranges):
+            return ()
         assignment = self.assignment
         if isinstance(asked, Policy):
             resolved = resolve(self.task, controllers).items()
             driven = {robot: asked if isinstance(each, Learn) else each for robot, each in resolved}
             assignment, asked = assign(self.task, driven, 1), None
-        sensing, ranges = simulated(self._sensing), self._randomization.sensing
-        if sensing is None or may_forecast(sensing, ranges):
-            forecasting_teams(self.task, assignment, asked, together=False)  # refuses wrong names
-            return ()
         forecast = with_number(sensing, "forecast", 1.0)
         randomization = Randomization.of(self.randomization, self.task.config, forecast)
         together = forecast_together(forecast, randomization.sensing)

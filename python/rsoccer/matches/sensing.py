@@ -65,6 +65,22 @@ def new_senses(
     return ModelSenses.new(sensing, frame, rng)
 
 
+def check_forecasting(task: Task, asked: Sequence[str]) -> None:
+    """Check the names of teams that are asked to forecast.
+
+    Args:
+        task: the task that is played.
+        asked: names of teams.
+
+    Raises:
+        ValueError: a name that is no team's, or that of a team without robots.
+    """
+    teams = list(teams_of(task.robots))
+    if isinstance(asked, str) or (unknown := sorted(set(asked) - set(teams), key=str)):
+        got = asked if isinstance(asked, str) else unknown
+        raise ValueError(f"forecasting: expected some of {teams}, got {got!r}")
+
+
 def forecasting_teams(
     task: Task, assignment: Assignment, asked: Sequence[str] | None, *, together: bool
 ) -> tuple[str, ...]:
@@ -79,14 +95,8 @@ def forecasting_teams(
         asked: names of teams; None to let the policies decide.
         together: whether both teams forecast or none, so that one that need not waits for the
             other.
-
-    Raises:
-        ValueError: a name that is no team's, or that of a team without robots.
     """
-    teams = list(teams_of(task.robots))
-    if isinstance(asked, str) or (unknown := sorted(set(asked or ()) - set(teams), key=str)):
-        got = asked if isinstance(asked, str) else unknown
-        raise ValueError(f"forecasting: expected some of {teams}, got {got!r}")
+    teams = teams_of(task.robots)
     learners = teams_of(task.robots[robot] for robot in assignment.learners)
     looking: dict[str, list[Policy]] = {team: [] for team in teams}
     for group in assignment.groups:
