@@ -16,10 +16,10 @@ SHIPPED_GROUP: Final = "robust-shipped"
 
 SAMPLES: Final[dict[str, int]] = {
     "VSS-v0": 5_000_000,
-    "VSSSelfPlay-v0": 10_000_000,
+    "VSSSelfPlay-v0": 6_000_000,
     "SSLGoToBall-v0": 3_000_000,
-    "SSLContestedPossession-v0": 10_000_000,
-    "SSLPassEnduranceMulti-v1": 10_000_000,
+    "SSLContestedPossession-v0": 6_000_000,
+    "SSLPassEnduranceMulti-v1": 6_000_000,
 }
 """Tasks that are learned in the study, and the samples of each run.
 
