@@ -21,6 +21,7 @@ __all__ = [
     "EVENT_KINDS",
     "GAME_COLUMNS",
     "GAME_FEATURES",
+    "HAND_ERROR",
     "MAX_EVENTS",
     "MAX_PLACED_ANGULAR_VELOCITY",
     "MAX_PLACED_HEIGHT",
@@ -74,6 +75,10 @@ EVENT_KINDS: dict[str, int]
 
 OFFENSES: tuple[int, ...]
 """Kinds of events that are offenses, in the order of the columns `offenses` of the statistics."""
+
+HAND_ERROR: float
+"""Error of the places of VSSS robots at the restarts of match tasks, m: assumed for robots that
+people put there by eye."""
 
 MAX_EVENTS: int
 """Greatest number of events that are listed for one match in one step."""
@@ -1072,15 +1077,17 @@ class Referee:
             ValueError: `kickoff` is neither 0 nor 1.
         """
 
-    def line_up(self, rows: NDArray[np.float32]) -> None:
+    def line_up(self, rows: NDArray[np.float32], seeds: Sequence[int]) -> None:
         """Put the ball, and all robots that are not absent, where matches begin.
 
         Args:
             rows: (n, row) state rows, changed in place.
+            seeds: (n,) seeds of the errors of places, see `placement_error` of the rules; their
+                lowest 24 bits count.
 
         Raises:
             TypeError: `rows` has another type.
-            ValueError: `rows` has another shape.
+            ValueError: `rows` has another shape, or `seeds` another length.
         """
 
     def begin(self, rows: NDArray[np.float32], matches: tuple[NDArray[np.generic], ...]) -> None:

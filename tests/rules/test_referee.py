@@ -31,7 +31,7 @@ REFEREE = Referee(CONFIG, referee_preset("ssl_2026_b"))
 
 def line_up(worlds: int) -> Floats:
     rows = Frame.empty(worlds, 2, 1).rows
-    REFEREE.line_up(rows)
+    REFEREE.line_up(rows, [0] * worlds)
     return rows
 
 
@@ -60,12 +60,17 @@ def test_a_lineup_leaves_absent_robots_alone() -> None:
     frame = Frame.empty(2, 2, 1)
     frame.robots.absent[1, 1] = 1.0
     before = frame.rows.copy()
-    REFEREE.line_up(frame.rows)
+    REFEREE.line_up(frame.rows, [0, 0])
     assert (frame.ball.position == 0.0).all()
     assert (frame.blue.position[0, :, 0] < 0.0).all() and (
         frame.yellow.position[..., 0] > 0.0
     ).all()
     assert same(frame.robots.data[1, 1], Frame(before, 2, 1).robots.data[1, 1])
+
+
+def test_a_lineup_needs_a_seed_for_each_match() -> None:
+    with pytest.raises(ValueError, match="seeds: expected 2 numbers, got 1"):
+        REFEREE.line_up(Frame.empty(2, 2, 1).rows, [0])
 
 
 @pytest.mark.parametrize("position", range(5))

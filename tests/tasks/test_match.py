@@ -127,6 +127,28 @@ def test_field_and_rules_follow_from_division_and_table() -> None:
     assert VssMatch(field="vss_5v5").referee_config.preset == "vsss_5v5"
 
 
+def test_no_two_vsss_matches_of_the_same_scripts_are_alike() -> None:
+    task = VssMatch(half_seconds=20.0)
+    matches = Matches(task, 4, controllers={"all": "chase"}, autoreset="disabled")
+    matches.reset()
+    places = matches.frame.robots.position.copy()
+    error = task.referee_config.placement_error
+    spread = np.ptp(places, axis=0)
+    assert ((spread > 0.0) & (spread <= 2.0 * error + 1e-6)).all()
+    balls, kickoffs = [], []
+    for _ in range(1600):
+        matches.step(zeros(matches))
+        balls.append(matches.frame.ball.position.copy())
+        if matches.play.events.happened(EventKind.GOAL)[0]:
+            kickoffs.append(len(balls))
+    assert kickoffs  # one of them plays at least one more kick-off
+    assert len(np.unique(np.stack(balls)[-1], axis=0)) == 4
+    exact = VssMatch(referee={"placement_error": 0.0})
+    matches = Matches(exact, 4, controllers={"all": "chase"})
+    matches.reset()
+    assert not np.ptp(matches.frame.robots.position, axis=0).any()
+
+
 def test_the_defaults_are_those_of_the_leagues() -> None:
     vss, ssl = BOTH
     assert (vss.n_blue, vss.n_yellow, ssl.n_blue, ssl.n_yellow) == (3, 3, 6, 6)

@@ -1,7 +1,7 @@
 //! A match before it begins, as text.
 
 use rsim_core::{Field, League, SimConfig};
-use rsim_referee::config::{League as RuleLeague, RefereeConfig};
+use rsim_referee::config::{HAND_ERROR, League as RuleLeague, RefereeConfig};
 use rsim_referee::rules;
 use serde::{Deserialize, Serialize};
 
@@ -91,8 +91,14 @@ impl Setup {
         };
         let rules = RefereeConfig::preset(preset).expect("a preset's name");
         let half_seconds = self.half_seconds;
-        let rules =
-            RefereeConfig { half_seconds, extra_half_seconds: 0.0, shootout_kicks: 0.0, ..rules };
+        let placement_error = if rules.league == RuleLeague::Vsss { HAND_ERROR } else { 0.0 };
+        let rules = RefereeConfig {
+            half_seconds,
+            extra_half_seconds: 0.0,
+            shootout_kicks: 0.0,
+            placement_error,
+            ..rules
+        };
         match self.play {
             Play::Match => rules,
             Play::SelfPlay => {

@@ -3,6 +3,7 @@
 use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
 use rsim_core::streams::words;
 use rsim_core::{Batch, Knowledge, SimConfig};
+use rsim_referee::draws::Draws;
 use rsim_referee::game::Game;
 use rsim_referee::statistics::Statistics;
 use rsim_referee::{Decisions, Referee, Team, Vector};
@@ -65,8 +66,10 @@ impl Match {
         let mut row = vec![0.0; config.row_size()];
         batch.read(&mut row);
         let rest = row.clone();
-        referee.line_up(&mut row)?;
+        let [first, others] = halves(drawn(setup.seed, 7));
+        referee.line_up(&mut row, first)?;
         let kickoff = Team::BOTH[usize::from(drawn(setup.seed, 0) & 1 == 1)];
+        let game = Game { placements: Draws::new(others), ..Game::new(kickoff) };
         let mut created = Self {
             people: vec![None; config.n_robots()],
             commands: vec![0.0; config.command_size()],
@@ -75,7 +78,7 @@ impl Match {
             rest,
             known: [row.clone(), row.clone()],
             row,
-            game: Game::new(kickoff),
+            game,
             statistics: Statistics::default(),
             decisions: Decisions::default(),
             sides: [Side::Idle, Side::Idle],

@@ -96,6 +96,7 @@ mod _core {
         )?;
         module.add("OFFENSES", PyTuple::new(py, OFFENSES.map(EventKind::code))?)?;
         module.add("GAME_FEATURES", PyTuple::new(py, FEATURES)?)?;
+        module.add("HAND_ERROR", rsim_referee::config::HAND_ERROR)?;
         module.add("MAX_EVENTS", crate::referee::MAX_EVENTS)?;
         module.add("BALL_PARAMETERS", PyTuple::new(py, columns::BALL_PARAMETERS)?)?;
         let sensing = rsim_core::Sensing::numbers().into_iter().map(|number| number.name);

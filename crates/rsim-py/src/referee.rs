@@ -77,13 +77,18 @@ impl Referee {
         Ok(PyArray1::from_vec(py, Game::new(*team).row()))
     }
 
-    /// Puts robots and ball where matches begin.
-    fn line_up(&self, rows: &Bound<'_, PyAny>) -> PyResult<()> {
+    /// Puts robots and ball where matches begin. Seeds draw the errors of the places.
+    fn line_up(&self, rows: &Bound<'_, PyAny>, seeds: Vec<u32>) -> PyResult<()> {
         let [n, _] = sizes::<2>("rows", rows)?;
+        if seeds.len() != n {
+            let got = seeds.len();
+            return Err(PyValueError::new_err(format!("seeds: expected {n} numbers, got {got}")));
+        }
         let mut rows: PyReadwriteArray<'_, f32, Ix2> =
             writeable("rows", rows, &[n, self.sizes.row])?;
-        for row in rows.as_slice_mut()?.chunks_exact_mut(self.sizes.row) {
-            self.judge.line_up(row).map_err(invalid)?;
+        let rows = rows.as_slice_mut()?.chunks_exact_mut(self.sizes.row);
+        for (row, seed) in rows.zip(seeds) {
+            self.judge.line_up(row, seed).map_err(invalid)?;
         }
         Ok(())
     }

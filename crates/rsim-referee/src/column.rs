@@ -1,6 +1,7 @@
 //! Values that stand in columns of a row of numbers.
 
 use crate::codes::{Command, Stage};
+use crate::draws::Draws;
 use crate::team::Team;
 use crate::vector::Vector;
 
@@ -109,6 +110,7 @@ as_number! {
         1 => Some(Team::Yellow),
         _ => None,
     };
+    Draws: |value| i32::try_from(value.state()).unwrap_or(0), |number| u32::try_from(number).ok().map(Self::new);
     Option<usize>: |value| value.map_or(-1, |index| i32::try_from(index).unwrap_or(i32::MAX)),
         |number| if number == -1 { Some(None) } else { usize::try_from(number).ok().map(Some) };
 }

@@ -45,6 +45,10 @@ pub enum HalfEnd {
     NextStop,
 }
 
+/// Error of the places of VSSS robots in match tasks, m: assumed for robots that people put there by eye. The
+/// presets have none.
+pub const HAND_ERROR: f32 = 0.01;
+
 /// Declares the configuration: its choices, and its numbers with unit and source.
 macro_rules! config {
     (
@@ -188,6 +192,8 @@ config! {
         goal_height, "m";
         /// Height of the outer walls, over which the ball must not be kicked.
         boundary_height, "m";
+        /// Greatest error, in x and in y, of the places in which VSSS robots are put by hand.
+        placement_error, "m";
         /// Distance from its place within which a ball is placed.
         placement_tolerance, "m";
         /// Distance of robots from a placed ball before a free kick of their own.

@@ -2,6 +2,7 @@
 
 use crate::codes::{Command, Stage};
 use crate::column::{ByTeam, row};
+use crate::draws::Draws;
 use crate::repeats::REPEATED;
 #[cfg(doc)]
 use crate::repeats::Repeated;
@@ -108,6 +109,8 @@ row! {
         shootout_kicks: ByTeam<i32>,
         /// Team with the first kick-off of the match.
         first_kickoff: Team,
+        /// State of the random numbers of placements.
+        placements: Draws,
     }
 }
 
@@ -162,6 +165,7 @@ impl Game {
             penalty_way: 0.0,
             shootout_kicks: ByTeam::default(),
             first_kickoff: kickoff,
+            placements: Draws::default(),
         }
     }
 

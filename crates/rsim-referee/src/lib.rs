@@ -9,6 +9,7 @@ pub mod codes;
 pub mod column;
 pub mod config;
 mod crossing;
+pub mod draws;
 mod error;
 pub mod events;
 pub mod features;

@@ -41,7 +41,7 @@ pub(crate) fn arrange(
         (Arrangement::All, League::Ssl) => restart.place_invalid(&positions, robots),
         (Arrangement::All, League::Vsss) => {
             let table = formation::places(game, moment, ball, &robots);
-            restart.place_by_table(&positions, robots, &table);
+            restart.place_by_table(game, moment, &positions, robots, &table);
         }
         _ => restart.settled.extend(robots.iter().map(|robot| robot.position)),
     }
@@ -78,10 +78,12 @@ impl Restart<'_> {
         self.place_near(positions, invalid);
     }
 
-    /// Puts the robots in their places of a table, and those for which it has none in the places nearest to
-    /// where they are.
+    /// Puts the robots in their places of a table, as exactly as by hand, and those for which it has none in
+    /// the places nearest to where they are.
     fn place_by_table(
         &mut self,
+        game: &mut Game,
+        moment: &Moment,
         positions: &Positions,
         robots: Vec<Robot>,
         table: &[(usize, Vector)],
@@ -90,8 +92,9 @@ impl Restart<'_> {
         let (listed, others): (Vec<_>, Vec<_>) =
             robots.into_iter().partition(|robot| place_of(robot).is_some());
         for robot in &listed {
-            let wanted = place_of(robot).map_or(robot.position, |(_, place)| *place);
-            self.place(positions, robot, wanted);
+            let place = place_of(robot).map_or(robot.position, |(_, place)| *place);
+            let error = game.placements.within(moment.config.placement_error);
+            self.place(positions, robot, place + error);
         }
         self.place_near(positions, others);
     }

@@ -3,6 +3,7 @@
 use crate::cards;
 use crate::codes::{Command, Stage};
 use crate::config::{League, RefereeConfig};
+use crate::draws::Draws;
 use crate::error::RefereeError;
 use crate::events::{Event, EventKind};
 use crate::flow::{self, Arrangement};
@@ -79,15 +80,16 @@ impl Referee {
         Ok(())
     }
 
-    /// Puts all robots of a row that are present, and the ball, where a match begins.
+    /// Puts all robots of a row that are present, and the ball, where a match begins. The seed draws the errors
+    /// of the places.
     ///
     /// # Errors
     /// A row of another length.
-    pub fn line_up(&self, row: &mut [f32]) -> Result<(), RefereeError> {
+    pub fn line_up(&self, row: &mut [f32], seed: u32) -> Result<(), RefereeError> {
         let copy = row.to_vec();
         let now = self.layout.sight(&copy)?;
         let moment = Moment::new(&self.config, &self.pitch, now, now);
-        let mut game = Game::new(Team::Blue);
+        let mut game = Game { placements: Draws::new(seed), ..Game::new(Team::Blue) };
         self.layout.put_ball(row, game.designated_position);
         for placed in line_up::kickoff(&game, &moment) {
             self.layout.put_robot(row, &placed);

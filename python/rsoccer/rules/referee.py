@@ -13,6 +13,9 @@ from rsoccer.play import Play
 from rsoccer.rules.base import Restart, Rule
 from rsoccer.rules.referee_config import RefereeConfig
 
+PLACEMENT_SEEDS: Final = 1 << 24
+"""Number of seeds from which the errors of places are drawn, in the line-up and in restarts."""
+_PLACEMENTS: Final = _core.GAME_COLUMNS.index("placements")
 _STATISTICS: Final = len(_core.STATISTICS_COLUMNS)
 _NEW_GAMES: Final = np.stack([_core.Referee.new_game(team) for team in (BLUE, YELLOW)])
 """(2, game) matches whose first kick-off blue or yellow has."""
@@ -58,12 +61,14 @@ class RefereeRule(Rule):
         }
 
     def begin(self, play: Play, worlds: NDArray[np.intp]) -> None:
-        """Draw the first kick-off of new matches, and fit others to a restart."""
+        """Draw what chance decides in new matches, and fit others to a restart."""
         game = play.game
         new = worlds[play.steps[worlds] == 0]
         if len(new):
             kickoffs = (play.rng.uniform(0.0, 2.0) >= 1.0).astype(np.intp)
             game.referee[new] = _NEW_GAMES[kickoffs[new]]
+            seeds = play.rng.integers(PLACEMENT_SEEDS)
+            game.referee[new, _PLACEMENTS] = seeds[new]
         some = game.take(worlds)
         self.core.begin(play.frame.rows[worlds], _arrays(some))
         game.put(worlds, some)

@@ -17,7 +17,7 @@ from rsoccer.game import EventKind, Stage
 from rsoccer.reflection import Reflection, Symmetry
 from rsoccer.rng import WorldRng
 from rsoccer.rules import Passes, Rule
-from rsoccer.rules.referee import RefereeRule
+from rsoccer.rules.referee import PLACEMENT_SEEDS, RefereeRule
 from rsoccer.rules.referee_config import PRESETS, RefereeConfig
 from rsoccer.task import Play
 from rsoccer.tasks.soccer import Soccer
@@ -151,7 +151,7 @@ class Match(Soccer):
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
         """Line both teams up for the first kick-off."""
         frame = Frame.empty(len(rng), self.n_blue, self.n_yellow)
-        self._referee.core.line_up(frame.rows)
+        self._referee.core.line_up(frame.rows, rng.integers(PLACEMENT_SEEDS).tolist())
         return frame
 
     def frame_to_observations(self, play: Play) -> dict[str, Floats]:
@@ -195,9 +195,19 @@ class Match(Soccer):
             "energy": rewards.energy(play) * (play.frame.robots.absent[:, play.observers] == 0.0),
             "fouls": -rewards.events_of_team(play, OFFENSES),
             "cards": -rewards.events_of_team(play, (EventKind.MULTIPLE_FOULS,)),
+            **self.league_terms(play, nearest),
         }
         done: Mask = play.game.stage == Stage.POST_GAME
         return rewards.weighted_terms(terms, self.term_weights), done
+
+    def league_terms(self, play: Play, nearest: Mask) -> dict[str, Floats]:  # noqa: ARG002 - for subclasses
+        """Return reward terms that one league alone has, unweighted, each (n, observers).
+
+        Args:
+            play: state of n worlds.
+            nearest: (n, observers) whether the robot is its team's nearest to the ball.
+        """
+        return {}
 
     @abstractmethod
     def approach(self, play: Play, nearest: Mask) -> Floats:

@@ -67,7 +67,7 @@ fn a_line_up_is_that_of_the_other_team_after_half_a_turn() {
     for division in [A, B] {
         let referee = referee(division, |_| {});
         let mut row = vec![0.0; referee.layout().row_size()];
-        referee.line_up(&mut row).expect("a row of this layout");
+        referee.line_up(&mut row, 0).expect("a row of this layout");
         let sight = referee.layout().sight(&row).expect("a row of this layout");
         let (lines, size) = (&referee.pitch().lines, referee.layout().team_size(Team::Blue));
         for number in 0..size {

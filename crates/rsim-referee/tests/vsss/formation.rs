@@ -1,7 +1,10 @@
 //! Default positions for each kick.
 
 use rsim_referee::codes::Command;
-use rsim_referee::{Team, Vector};
+use rsim_referee::config::{HAND_ERROR, RefereeConfig};
+use rsim_referee::draws::Draws;
+use rsim_referee::sight::Robot;
+use rsim_referee::{Referee, Team, Vector};
 
 use crate::outlines::assert_valid;
 use crate::pitches::{BALL_RADIUS, Size};
@@ -133,7 +136,7 @@ fn a_match_is_lined_up_for_its_first_kick_off() {
         let mut scene = scattered(size, [5, 5], 8, 0.2);
         scene.roll([0.3, 0.2], [1.0, 0.0]);
         let present = scene.robots().len();
-        scene.referee.line_up(&mut scene.row).expect("its row");
+        scene.referee.line_up(&mut scene.row, 0).expect("its row");
         let kickoff = Command::PrepareKickoff(Team::Blue);
         assert_eq!((scene.ball_position(), scene.robots().len()), (Vector::default(), present));
         for team in Team::BOTH {
@@ -145,6 +148,41 @@ fn a_match_is_lined_up_for_its_first_kick_off() {
             }
         }
         assert_valid(&scene);
+    }
+}
+
+#[test]
+fn hands_put_robots_near_their_places_and_each_time_elsewhere() {
+    for size in Size::BOTH {
+        for (command, ball) in kicks(size) {
+            let placed = |seed| {
+                let mut scene = scattered(size, [size.robots(); 2], 1, 0.0);
+                let config = RefereeConfig { placement_error: HAND_ERROR, ..size.config() };
+                scene.referee = Referee::new(config, size.pitch(), scene.referee.layout().clone())
+                    .expect("valid");
+                scene.game.placements = Draws::new(seed);
+                arrange(&mut scene, command, ball);
+                assert_eq!(scene.ball_position(), ball);
+                assert_valid(&scene);
+                let first: Vec<Robot> = scene.robots();
+                arrange(&mut scene, command, ball);
+                (first, scene.robots())
+            };
+            let (first, second) = placed(1);
+            assert_eq!((&first, &second), (&placed(1).0, &placed(1).1));
+            for other in [&second, &placed(2).0] {
+                assert!(first.iter().zip(other).all(|(a, b)| a.position != b.position));
+            }
+            for team in Team::BOTH {
+                let robots = first.iter().filter(|robot| robot.team == team);
+                for (robot, place) in robots.zip(expected(command, size, ball, team)) {
+                    // Robots beside a ball or a goal make room for their turns.
+                    let error = robot.position - place;
+                    let most = HAND_ERROR + 0.02;
+                    assert!(error.x.abs() < most && error.y.abs() < most, "{command:?} {robot:?}");
+                }
+            }
+        }
     }
 }
 

@@ -84,7 +84,7 @@ impl Arena {
         let mut world = World::new(&config).expect("a valid world");
         let mut row = vec![0.0; config.row_size()];
         world.write_row(&mut row);
-        referee.line_up(&mut row).expect("a row");
+        referee.line_up(&mut row, 0).expect("a row");
         world.place(&row, None).expect("a valid line-up");
         let mut game = Game::new(Team::Blue);
         referee.begin(&row, &mut game).expect("a row");

@@ -90,7 +90,7 @@ impl Scene {
     fn new(referee: Referee, us: Team, aside: f32) -> Self {
         let mut row = vec![0.0; referee.layout().row_size()];
         row[BALL.len() - 1] = -1.0;
-        referee.line_up(&mut row).expect("a row of this layout");
+        referee.line_up(&mut row, 0).expect("a row of this layout");
         let mut scene = Self {
             referee,
             game: Game::new(us),
