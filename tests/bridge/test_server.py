@@ -21,6 +21,7 @@ from rsoccer.protocols.schemas import (
     vision_pb2,
 )
 from tests.bridge.clients import BLUE, OTHER, REMOTE, YELLOW, Wall, local_velocity
+from tests.helpers import same
 
 
 def test_a_client_drives_its_team_and_sees_it() -> None:
@@ -346,6 +347,40 @@ def test_a_policy_plays_until_a_client_comes() -> None:
     assert not wall.server.session.commands[6:].any()
     wall.tick(300)
     assert wall.server.session.commands[6:].any(), "the policy plays on"
+
+
+def test_policies_play_from_a_forecast_and_ports_tell_what_is_seen() -> None:
+    late = Sensing(frame_rate=60.0, delay=0.05, command_delay=0.05)
+    walls = [Wall(sensing=late, blue=policy, yellow="zero") for policy in ("scripted", "zero")]
+    for wall in walls:
+        while not wall.server.session.arena.play.game.in_play[0]:
+            wall.tick(10)
+    arena = walls[0].server.session.arena
+    ahead = []
+    for _ in range(40):
+        walls[0].tick(5)
+        arena.sense_for_policies()
+        known = arena.play.known_to(0).blue.position - arena.sense().blue.position
+        ahead.append(float(np.linalg.norm(known[0], axis=1).max()))
+        assert same(arena.play.known_to(1).rows, arena.sense().rows), "yellow has no such policy"
+    assert max(ahead) > 0.03, "a robot moves in 0.1 s"
+
+
+def test_forecasts_of_policies_change_nothing_that_is_seen() -> None:
+    task, noisy = make_match("ssl", "B", None), Sensing("rc2021")
+    arenas = [Arena(task, noisy, 1, forecasting=teams) for teams in ((), ("blue",))]
+    commands = np.full((task.config.n_robots, 6), 0.3, np.float32)
+    for tick in range(40):
+        for arena in arenas:
+            arena.step(commands)
+            if tick % 5 == 0:
+                arena.sense_for_policies()
+        first, second = arenas
+        assert same(first.sense().rows, second.sense().rows)
+        assert len(first.camera_frames) == len(second.camera_frames)
+        for seen, other in zip(first.camera_frames, second.camera_frames, strict=True):
+            assert same(seen.balls, other.balls) and same(seen.robots, other.robots)
+    assert not same(second.play.known_to(0).rows, first.play.known_to(0).rows)
 
 
 def test_as_fast_as_clients_answer() -> None:

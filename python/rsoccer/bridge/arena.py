@@ -15,8 +15,10 @@ from rsoccer.play import Play
 from rsoccer.protocols.placing import Placement
 from rsoccer.rng import WorldRng
 from rsoccer.rules.referee import RefereeRule
+from rsoccer.sensing_text import with_number
 from rsoccer.simulated_senses import SimulatedSenses
 from rsoccer.tasks.match import Match
+from rsoccer.view import SIDES
 
 FRAME_RATE: Final = 60.0
 """Frame rate of cameras without `sensing`, Hz."""
@@ -43,7 +45,7 @@ class Arena:
 
     Attributes:
         task: the task of the match, with steps of one tick.
-        play: state of the match; `play.sensed` is current after `sense`.
+        play: state of the match; `play.sensed` is current after `sense_for_policies`.
         sensing: senses of the robots.
         config: configuration of the simulator.
         ticks: ticks since the start.
@@ -59,6 +61,7 @@ class Arena:
         *,
         has_referee: bool = True,
         observers: list[int] | None = None,
+        forecasting: tuple[str, ...] = (),
     ) -> None:
         """Line the teams up for the first kick-off.
 
@@ -68,9 +71,10 @@ class Arena:
             seed: seed of the first kick-off and of the senses.
             has_referee: whether the task's referee decides.
             observers: robots with a policy, in the order of a state row; None for none.
+            forecasting: teams, "blue" or "yellow", whose policies play from a forecast.
 
         Raises:
-            ValueError: senses that forecast, or cameras of each team's own.
+            ValueError: senses that forecast for all, or cameras of each team's own.
         """
         self.task = task
         self.sensing = Sensing(frame_rate=FRAME_RATE) if sensing is None else sensing
@@ -80,6 +84,7 @@ class Arena:
         if self.sensing.own_cameras:
             raise ValueError("sensing.own_cameras: expected 0 in a served match, with one vision")
         self.config = task.config.with_sensing(self.sensing)
+        self._forecasting = tuple(SIDES.index(team) for team in forecasting)
         rng = WorldRng.seeded(seed, 1)
         viewpoint = new_viewpoint(task, [] if observers is None else observers)
         self.play: Play = new_play(task, 1, viewpoint, rng.split("task"))
@@ -98,12 +103,20 @@ class Arena:
 
     def _build(self, config: SimConfig, rows: Floats) -> None:
         """Make the simulator, with all bodies placed and new senses."""
-        simulator = Simulator(config, 1, 1)
+        simulated = config
+        if self._forecasting:
+            simulated = config.with_sensing(with_number(self.sensing, "forecast", 1.0))
+        simulator = Simulator(simulated, 1, 1)
         simulator.place(_MASK, rows, rows.copy())
         self.simulator, self.config = simulator, config
-        senses = SimulatedSenses.new(simulator, 1, None, (), self.play.frame, self._senses_rng)
-        senses.begin(Frame(rows, config.n_blue, config.n_yellow), _WORLD)
-        self.play.senses = senses
+        frame, rng = Frame(rows, config.n_blue, config.n_yellow), self._senses_rng
+        self._known = SimulatedSenses.new(simulator, 1, None, (), frame, rng)
+        self._known.begin(frame, _WORLD)
+        self.play.senses = self._known
+        if self._forecasting:
+            known = SimulatedSenses.new(simulator, 1, None, self._forecasting, frame, rng)
+            known.sense(frame)
+            self.play.senses = known
         self._senses_begun = self.seconds
         self._is_sensed = True
 
@@ -120,9 +133,15 @@ class Arena:
     def sense(self) -> Frame:
         """Return what the robots and trackers know, frame of one world."""
         if not self._is_sensed:
-            self.play.senses.sense(self.play.frame)  # type: ignore[union-attr]  # set by `_build`
+            self._known.sense(self.play.frame)
             self._is_sensed = True
-        return self.play.sensed
+        return self._known.frame
+
+    def sense_for_policies(self) -> None:
+        """Bring `play.sensed` up to date: what policies know, by a forecast where they need one."""
+        self.sense()
+        if self._forecasting:
+            self.play.senses.sense(self.play.frame)  # type: ignore[union-attr]  # set by `_build`
 
     def step(self, commands: Floats) -> None:
         """Advance by one tick, and let the referee decide.

@@ -65,6 +65,7 @@ class Session:
             settings.seed,
             has_referee=settings.referee == "own",
             observers=self.stand_ins.observers,
+            forecasting=self.stand_ins.forecasting,
         )
         side = settings.blue_on_positive_half
         self._on_positive = settings.league == "vsss" if side is None else side
@@ -97,7 +98,7 @@ class Session:
             self.release_silent(team, now)
         plays = [team for team in self.teams if stand_ins.plays(team.index)]
         if plays and stand_ins.is_due(arena.ticks):
-            arena.sense()
+            arena.sense_for_policies()
             stand_ins.act(arena.play)
         for team in self.teams:
             has_policy = stand_ins.plays(team.index)

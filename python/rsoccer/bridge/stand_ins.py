@@ -9,6 +9,7 @@ import numpy as np
 from rsoccer.arrays import Floats
 from rsoccer.bridge.match_tasks import TICK
 from rsoccer.controllers import Controllers, assign
+from rsoccer.matches.sensing import forecasting_teams
 from rsoccer.play import Play
 from rsoccer.policies.base import CommandPolicy
 from rsoccer.protocols.layout import TEAM_NAMES
@@ -26,6 +27,7 @@ class StandIns:
 
     Attributes:
         observers: robots whose policies observe the match, in the order of a state row.
+        forecasting: teams, "blue" or "yellow", whose policies play from a forecast.
     """
 
     def __init__(self, task: Match, blue: str | None, yellow: str | None, seed: int = 0) -> None:
@@ -38,22 +40,16 @@ class StandIns:
             seed: seed of their random numbers.
 
         Raises:
-            ValueError: an unknown policy, one that does not fit the match, or one that needs a
-                forecast.
+            ValueError: an unknown policy, or one that does not fit the match.
         """
         given = (blue, yellow)
         controllers: Controllers = {
             team: NOBODY_PLAYS if name is None else name
             for team, name in zip(TEAM_NAMES, given, strict=True)
         }
-        assignment = assign(task, controllers, 1)
-        for group in assignment.groups:
-            if group.policy.needs_forecast:
-                raise ValueError(
-                    "policy: expected one that has learned without a forecast, which a served "
-                    f"match has not, got {type(group.policy).__name__}"
-                )
+        assignment = assign(task, controllers, 1, by_team=True)  # each may forecast
         self.observers: list[int] = assignment.observers.tolist()
+        self.forecasting = forecasting_teams(task, assignment, None, together=False)
         self._plays = tuple(name is not None for name in given)
         self._task = task
         self._groups = assignment.groups
