@@ -11,7 +11,6 @@ from rsoccer.task import Play
 from rsoccer.tasks import VssSelfPlay
 from tests import rewards_reference
 from tests.helpers import pushing
-from tests.test_view import rotated
 
 TASK = VssSelfPlay()
 FIELD = TASK.config.field
@@ -117,37 +116,6 @@ def test_one_robot_of_each_team_is_nearest() -> None:
 def test_one_robot_is_nearest_without_opponents() -> None:
     play = initial_play(20, VssSelfPlay(n_yellow=0))
     assert rewards.nearest_to_ball(play).sum(axis=1).tolist() == [1] * 20
-
-
-@pytest.mark.parametrize("field", ["vss_3v3", "vss_5v5"])
-def test_robots_that_crowd_a_goal_area_with_the_ball_pay(field: str) -> None:
-    task = VssSelfPlay(field=field)
-    play = initial_play(6, task)
-    lines = task.config.field
-    depth = lines.inner_area_depth or lines.goal_area_depth
-    inside, outside = lines.half_length - depth + 0.02, lines.half_length - depth - 0.02
-    frame = play.frame
-    frame.robots.position[:] = 0.0
-    frame.ball.position[:] = inside + 0.02, 0.0
-    blue, yellow = frame.robots.position[:, :3], frame.robots.position[:, 3:]
-    blue[0, :2, 0] = inside  # two attackers
-    blue[1, :2, 0] = inside
-    yellow[1, :, 0] = inside  # all defenders too
-    blue[2, 0, 0], blue[2, 1, 0] = inside, outside  # one of them is outside
-    blue[3, :2, 0] = inside
-    frame.ball.position[3] = outside, 0.0  # the ball is
-    blue[4, :2, 0] = -inside  # an area without the ball
-    blue[5, :2, 0] = inside
-    frame.robots.absent[5, 1] = 1.0
-    nearest = np.zeros((6, 6), np.bool_)
-    nearest[:, [0, 3]] = True
-    step = -task.config.time_step
-    expected = np.zeros((6, 6))
-    expected[:2, 1] = expected[1, 4:] = step
-    assert rewards.crowding(play, task.config, nearest) == pytest.approx(expected)
-    frame.rows[:], nearest = rotated(frame).rows, nearest[:, [3, 4, 5, 0, 1, 2]]
-    turned = rewards.crowding(play, task.config, nearest)
-    assert turned == pytest.approx(expected[:, [3, 4, 5, 0, 1, 2]])
 
 
 def test_energy_is_the_mean_action_magnitude() -> None:

@@ -6,6 +6,9 @@ of the file, which is copied to `python/rsoccer/policies/trained/<task>.safetens
 the policy `best` of its task. The policy of a run with `sensing`, such as a distillation, becomes
 `<task>.robust.safetensors`, the policy `best:robust`, and plays all starts with these senses, too.
 
+`python -m tools.ship_policy --behind-forecast VSSSelfPlay-v0` makes `best` of a task its
+`best:robust`, too: the same weights, behind a forecast.
+
 `python -m tools.ship_policy --again` measures policies that are in the package once more, after a
 change of the physics: their weights stay.
 """
@@ -13,6 +16,7 @@ change of the physics: their weights stay.
 import argparse
 import json
 import shlex
+import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Final
@@ -23,7 +27,7 @@ from rsoccer.benchmark.protocol import opponents_of
 from rsoccer.evaluate import Evaluation, evaluate, table
 from rsoccer.evaluate.results import MIN_PER_SIDE
 from rsoccer.files import write_atomically
-from rsoccer.policies import trained
+from rsoccer.policies import trained, training_conditions
 from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import SUFFIX, Score, scores_text
 from rsoccer.sensing_text import describe
@@ -31,6 +35,8 @@ from rsoccer.task import Task
 from rsoccer.train.args import CHANGEABLE_ON_RESUME, SETTINGS_FILE
 from rsoccer.train.run.log import read_progress
 
+BEHIND_FORECAST: Final = "rc2021, forecast=1"
+"""Senses of a policy that is made robust by a forecast alone."""
 STARTS: Final = 500
 """Starts of an evaluation; a two-sided task plays each number of them for each team."""
 SEED: Final = 0
@@ -46,17 +52,23 @@ def main() -> None:
     parser.add_argument(
         "--again", nargs="*", metavar="TASK", help="measure shipped policies again; all by default"
     )
+    parser.add_argument("--behind-forecast", metavar="TASK", help="ship `best` as `best:robust`")
     parser.add_argument("--opponents", nargs="*", help="policies of the other team")
     parser.add_argument("--starts", type=int, default=STARTS, help="starts for each side")
     parser.add_argument("--threads", type=int, help="threads of the simulator")
     arguments = parser.parse_args()
-    if (arguments.run is None) == (arguments.again is None):
-        parser.error("expected either a run or --again")
+    given = (arguments.run, arguments.again, arguments.behind_forecast)
+    if sum(value is not None for value in given) != 1:
+        parser.error("expected one of a run, --again and --behind-forecast")
     if arguments.again is not None:
         for name in arguments.again or shipped():
             measure_again(name, arguments.starts, arguments.threads)
         return
-    path = ship(arguments.run, arguments.opponents, arguments.starts, arguments.threads)
+    numbers = (arguments.opponents, arguments.starts, arguments.threads)
+    if arguments.behind_forecast is not None:
+        path = ship_behind_forecast(arguments.behind_forecast, *numbers)
+    else:
+        path = ship(arguments.run, *numbers)
     print(f"{path}: {path.stat().st_size / 1024:.1f} KiB")
 
 
@@ -98,10 +110,53 @@ def ship(
     network.save(candidate, half_precision=True)
     if candidate.stat().st_size > MAX_SIZE:
         raise ValueError(f"run: expected a policy of at most {MAX_SIZE} bytes, got {candidate}")
+    _put(candidate, path)
+    return path
+
+
+def ship_behind_forecast(
+    name: str,
+    opponents: list[str] | None = None,
+    starts: int = STARTS,
+    threads: int | None = None,
+) -> Path:
+    """Make the policy `best` of a task its policy `best:robust`, too, which needs a forecast.
+
+    Args:
+        name: the task.
+        opponents: policies of the other team; None for those of the protocol.
+        starts: starts for each side, at least 10.
+        threads: threads of the simulator; None for all.
+
+    Returns:
+        The file in the package; an existing one has been replaced.
+
+    Raises:
+        ValueError: a task without a policy, or too few starts.
+    """
+    checks.integer("starts", starts, MIN_PER_SIDE)
+    source = trained.list_trained().get(name)
+    if source is None:
+        raise ValueError(f"name: expected one of {list(trained.list_trained())}, got {name!r}")
+    network = Network.load(source)
+    network.metadata |= training_conditions.written(BEHIND_FORECAST, None)
+    path = trained.FOLDER / trained.file_name(name, trained.ROBUST)
+    with tempfile.TemporaryDirectory() as folder:
+        candidate = Path(folder) / path.name
+        network.save(candidate, half_precision=True)
+        senses = senses_of(network)
+        scores = _scores(candidate, rsoccer.make_task(name), opponents, starts, threads, senses)
+        network.metadata |= {"scores": scores_text(scores)}
+        network.save(candidate, half_precision=True)
+        _put(candidate, path)
+    return path
+
+
+def _put(candidate: Path, path: Path) -> None:
+    """Put a file into the package, and print the scores of the one that it replaces."""
     if path.exists():
         print("before:", *trained.list_scores(path), sep="\n    ")
     write_atomically(path, candidate.read_bytes())
-    return path
 
 
 def shipped() -> dict[str, Path]:

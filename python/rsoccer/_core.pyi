@@ -33,6 +33,7 @@ __all__ = [
     "SENSING_NUMBERS",
     "STAGES",
     "STATISTICS_COLUMNS",
+    "AreaShield",
     "BallModel",
     "EgoFeatures",
     "Field",
@@ -1149,6 +1150,43 @@ class Referee:
         Raises:
             TypeError: An array has another type.
             ValueError: An array has another shape or a wrong number, or there is no such robot.
+        """
+
+@final
+class AreaShield:
+    """Shield that keeps VSSS robots out of goal areas in which the referee allows no more.
+
+    With the ball in a goal area two robots of a team there are a foul, at either end, and a goal
+    does not count after it. Where a robot would be one too many, the shield stops it before the
+    area, or has it leave. On a field with two areas it is the smaller one, and in the larger one
+    the referee's limits hold.
+
+    Args:
+        config: Field and robots.
+
+    Raises:
+        ValueError: Robots without a differential drive.
+    """
+
+    def __new__(cls, config: SimConfig) -> AreaShield: ...
+    def apply(
+        self,
+        rows: NDArray[np.float32],
+        robots: Sequence[int],
+        actions: NDArray[np.float32],
+        threads: Threads | None = None,
+    ) -> None:
+        """Change the actions of robots that would be one too many in a goal area.
+
+        Args:
+            rows: (n, row) states as the robots know them.
+            robots: (k,) indices of the robots in a state row.
+            actions: (n, k, 2) speeds of the left and the right wheel, -1 to 1; changed in place.
+            threads: Threads that share the work.
+
+        Raises:
+            TypeError: Arrays of other types.
+            ValueError: Arrays of other shapes, or an index without a robot.
         """
 
 @final

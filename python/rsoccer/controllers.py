@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rsoccer import checks
+from rsoccer._core import SimConfig
 from rsoccer.arrays import Array, Floats
 from rsoccer.frame import team_of
 from rsoccer.policies import make_policy
@@ -40,6 +41,8 @@ class PolicyGroup:
     """(n,) random streams."""
     memory: Memory
     """(n, ...) arrays of the policy."""
+    config: SimConfig
+    """Field, ball and robots of the task."""
     optional_actions: int = 0
     """Numbers at the end of an action that the policy may leave out; they are 0 then."""
 
@@ -92,7 +95,7 @@ class PolicyGroup:
         if self.policy.observes != "nothing":
             view = play.sensed_view.select(self.observer_indices)
             known = play.known_to_robots(self.robots)
-            match = MatchState(known.rows, play.game, self.robots, play.threads)
+            match = MatchState(known.rows, play.game, self.robots, play.threads, self.config)
         if self.policy.observes == "observation":
             observed = observations[:, self.observer_indices]
         return PolicyInput(shape, view, observed, self.optional_actions, match)
@@ -214,6 +217,7 @@ def assign(
                 indices,
                 rng,
                 memory,
+                task.config,
                 task.optional_action_size,
             )
         )

@@ -164,43 +164,6 @@ def nearest_to_ball(play: Play) -> Mask:
     return _core.nearest_to_ball(frame.rows, frame.n_blue, play.observers, play.threads)
 
 
-def crowding(play: Play, config: SimConfig, nearest: Mask) -> Floats:
-    """Return the negative time in which observers are too many in a goal area with the ball.
-
-    In VSSS two robots of a team in the goal area with the ball, at either end, are too many. The
-    one that is nearest to the ball may stay, so the others of them pay. On a field with two areas
-    it is the smaller one.
-
-    Args:
-        play: state of n worlds.
-        config: gives the areas, and the time of a step.
-        nearest: (n, observers) whether the robot is its team's nearest to the ball.
-
-    Returns:
-        (n, observers) seconds, 0 or the negative time of a step.
-    """
-    frame, field = play.frame, config.field
-    has_two = field.inner_area_depth > 0.0
-    depth = field.inner_area_depth if has_two else field.goal_area_depth
-    width = field.inner_area_width if has_two else field.goal_area_width
-    front, half_width = np.float32(field.half_length - depth), np.float32(width / 2)
-    ball = frame.ball.position
-    has_ball = (np.abs(ball[:, 0]) > front) & (np.abs(ball[:, 1]) < half_width)
-    values = np.zeros((len(frame), len(play.observers)), np.float32)
-    worlds = np.flatnonzero(has_ball)
-    if not len(worlds):  # in most steps of few worlds
-        return values
-    robots = frame.robots.position[worlds]
-    inside = robots[..., 0] * np.sign(ball[worlds, :1]) > front
-    inside &= np.abs(robots[..., 1]) < half_width
-    inside &= frame.robots.absent[worlds] == 0.0
-    teams = (slice(None, frame.n_blue), slice(frame.n_blue, None))
-    crowded = np.stack([inside[:, team].sum(axis=1) > 1 for team in teams], axis=1)
-    pays = inside[:, play.observers] & crowded[:, play.viewpoint.teams] & ~nearest[worlds]
-    values[worlds] = pays * np.float32(-config.time_step)
-    return values
-
-
 def energy(play: Play) -> Floats:
     """Return the negative mean magnitude of each observer's action, a proxy of its energy.
 

@@ -77,6 +77,41 @@ def test_numbers_that_both_tasks_have_act_alike(
     assert (found[:, policy.action_size :] == 0.0).all()
 
 
+def test_a_history_is_taken_along_with_each_of_its_parts() -> None:
+    task = rsoccer.make_task("VSSMatch-v0")
+    plain, source = best("VSSSelfPlay-v0"), rsoccer.make_task("VSSSelfPlay-v0")
+    stack = ObservationStack.of(source, 5)
+    policy = Network.from_layers(
+        source,
+        initial_policy.widened_layers(plain, stack),
+        history=5,
+        sensing="rc2021",
+        randomization={"robot.mass": (0.9, 1.1)},
+        shield="goal_areas",
+    )
+    policy.layers[0][0][:] += np.random.default_rng(1).normal(size=policy.layers[0][0].shape) / 50
+    other = fitted(policy, task)
+    assert (other.history, other.stack) == (policy.history, ObservationStack.of(task, 5))
+    assert other.sensing == policy.sensing
+    assert other.randomization == policy.randomization
+    assert other.shield is not None
+    rng = np.random.default_rng(0)
+    pairs = [(a.ravel(), b.ravel()) for a, b in common(source, task)]
+    old = np.tile(policy.mean, (5, 1))
+    new = rng.normal(size=(5, other.observation_size)).astype(np.float32)
+    for nth in range(policy.history):
+        for before, after in pairs:
+            values = rng.normal(size=(5, before.size)).astype(np.float32)
+            old[:, before + nth * source.layout.size] = values
+            new[:, after + nth * task.layout.size] = values
+    actions = rng.normal(size=(5, 2 * (policy.history - 1))).astype(np.float32)
+    old[:, policy.history * source.layout.size :] = actions
+    new[:, policy.history * task.layout.size :] = actions
+    wanted = policy.mean_actions(old)
+    assert wanted.std() > 0.05
+    np.testing.assert_allclose(other.mean_actions(new), wanted, atol=1e-5)
+
+
 def test_runs_begin_with_the_policy_of_another_task(tmp_path: Path) -> None:
     task = rsoccer.make_task("VSSMatch-v0")
     stack = ObservationStack.of(task, 1)

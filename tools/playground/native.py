@@ -15,7 +15,7 @@ from rsoccer.rules.referee_config import RefereeConfig
 from rsoccer.sensing_text import with_number
 from rsoccer.view import SIDES
 
-_KICKOFF, _TEAMS, _SENSES = 0, 1, 5  # words of a seed, as `whole_match.rs` draws them
+_KICKOFF, _TEAMS, _SENSES, _PLACES = 0, 1, 5, 7  # words of a seed, as `whole_match.rs` draws them
 _MASK: Final = 2**64 - 1
 _ALL: Final = np.ones(1, np.bool_)
 
@@ -60,14 +60,15 @@ class NativeMatch:
             team.begin(memory, [_word(seed, _TEAMS + nth) & 0xFFFFFFFF])
         self.row = np.zeros((1, row_size(robots, robots)), np.float32)
         self._simulator.read(self.row)
-        self._referee.line_up(self.row)
+        places = _word(seed, _PLACES)
+        self._referee.line_up(self.row, [places & 0xFFFFFFFF])
         self._simulator.place_estimates(_ALL, self.row.copy(), self.row)
         self._simulator.place(_ALL, self.row.copy(), self.row)
         self._simulator.begin_senses(_ALL, np.array([_word(seed, _SENSES)], np.uint64))
         self._known = (np.empty_like(self.row), np.empty_like(self.row))
         self._sense()
         self._match: tuple[Array, ...] = (
-            _core.Referee.new_game(_word(seed, _KICKOFF) & 1)[None].copy(),
+            _new_game(_word(seed, _KICKOFF) & 1, (places >> 32) & 0xFFFFFF),
             np.zeros((1, len(_core.STATISTICS_COLUMNS)), np.float32),
             np.zeros((1, 2), np.int64),
             np.zeros(1, np.float32),
@@ -110,6 +111,13 @@ class NativeMatch:
         """Find what the teams know: scripted ones forecast."""
         for known, team in zip(self._known, SIDES, strict=True):
             self._simulator.sense(known, known=team)
+
+
+def _new_game(kickoff: int, places: int) -> Floats:
+    """A match that begins, (1, game), with the seed of the errors of places."""
+    game = _core.Referee.new_game(kickoff)[None].copy()
+    game[0, _core.GAME_COLUMNS.index("placements")] = places
+    return game
 
 
 def _word(seed: int, nth: int) -> int:

@@ -2,13 +2,14 @@
 
 import base64
 import html
+import tempfile
 from functools import cache
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 import rsoccer
 from rsoccer._core import COMMAND_COLUMNS, SimConfig
-from rsoccer.policies.trained import FOLDER
+from rsoccer.policies.trained import FOLDER, load_best
 from rsoccer.replay import match_page, page
 from rsoccer.replay.quantized import STEPS
 from tools.playground.keys import key_words, keys
@@ -36,7 +37,8 @@ class Policy(NamedTuple):
     name: str
     """words of the choice"""
     file: str
-    """name of its file in the package"""
+    """name of its file in the package; or of a task and a field, and perhaps "robust", where the
+    policy of another task plays"""
 
 
 class League(NamedTuple):
@@ -62,15 +64,18 @@ _SSL: Final = (Policy("best", "best of SSLSelfPlay-v0", "SSLSelfPlay-v0.safetens
 _VSS: Final = (
     Policy("best", "best of VSSSelfPlay-v0", "VSSSelfPlay-v0.safetensors"),
     Policy("multi", "best of VSSMulti-v0", "VSSMulti-v0.safetensors"),
-    Policy("robust", "best:robust of VSS-v0", "VSS-v0.robust.safetensors"),
+    Policy("robust", "best:robust of VSSSelfPlay-v0", "VSSSelfPlay-v0.robust.safetensors"),
+)
+_VSS_5: Final = (
+    Policy("best", "best of VSSMatch-v0", "VSSMatch-v0 vss_5v5"),
+    Policy("robust", "best:robust of VSSMatch-v0", "VSSMatch-v0 vss_5v5 robust"),
 )
 LEAGUES: Final = (
     League("ssl_b", "SSL, 6 v 6 (division B)", "ssl_b", 6, "SSLMatch-v0"),
     League("ssl_a", "SSL, 11 v 11 (division A)", "ssl_a", 11, "SSLMatch-v0"),
     League("ssl_3", "SSL, 3 v 3 on a small field", "ssl_challenge", 3, "SSLMatch-v0", _SSL),
     League("vss", "VSSS, 3 v 3", "vss_3v3", 3, "VSSMatch-v0", _VSS),
-    # No shipped policy observes ten robots: people play, and policy files.
-    League("vss_5", "VSSS, 5 v 5", "vss_5v5", 5, "VSSMatch-v0"),
+    League("vss_5", "VSSS, 5 v 5", "vss_5v5", 5, "VSSMatch-v0", _VSS_5),
     League(
         "ssl_self_play",
         "Task SSLSelfPlay-v0",
@@ -157,4 +162,13 @@ def _league(league: League) -> dict[str, Any]:
 
 def _encoded(name: str) -> str:
     """The file of a shipped policy in base64."""
-    return base64.b64encode((FOLDER / name).read_bytes()).decode()
+    if (FOLDER / name).exists():
+        return base64.b64encode((FOLDER / name).read_bytes()).decode()
+    task, field, *variant = name.split()
+    league = next(league for league in LEAGUES if league.field == field)
+    robots = {"n_blue": league.robots, "n_yellow": league.robots}
+    network = load_best(rsoccer.make_task(task, field=field, **robots), *variant)
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "policy.safetensors"
+        network.save(path, half_precision=True)
+        return base64.b64encode(path.read_bytes()).decode()

@@ -6,6 +6,7 @@
 //! every platform.
 
 mod actions;
+mod area_shield;
 mod conditions;
 mod error;
 mod files;
@@ -19,6 +20,7 @@ mod setup;
 mod side;
 mod whole_match;
 
+pub use area_shield::AreaShield;
 pub use conditions::Conditions;
 pub use error::MatchError;
 pub use knowledge::{layout, lines, pitch, team_config};

@@ -12,6 +12,8 @@ const FORMAT: &str = "rsoccer-policy-2";
 const MAX_ACTION_REPEAT: u32 = 1_000_000;
 /// Most observations in a stacked one.
 const MAX_HISTORY: u32 = 1000;
+/// Name of the shield that a policy may have.
+const SHIELD: &str = "goal_areas";
 /// Products that are summed side by side.
 const LANES: usize = 8;
 
@@ -27,6 +29,8 @@ pub struct Network {
     history: usize,
     layout: Option<String>,
     task: String,
+    is_shielded: bool,
+    needs_forecast: bool,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -83,12 +87,42 @@ impl Network {
             )));
         }
         let layout = metadata.get("layout").cloned();
-        Ok(Self { mean, std, clip, layers, action_std, action_repeat, history, layout, task })
+        let is_shielded = match metadata.get("shield").map(String::as_str) {
+            None => false,
+            Some(SHIELD) => true,
+            Some(got) => {
+                return Err(wrong(&format!("metadata 'shield' should be {SHIELD:?}, got {got:?}")));
+            }
+        };
+        let needs_forecast = needs_forecast(metadata.get("sensing"))?;
+        Ok(Self {
+            mean,
+            std,
+            clip,
+            layers,
+            action_std,
+            action_repeat,
+            history,
+            layout,
+            task,
+            is_shielded,
+            needs_forecast,
+        })
     }
 
     /// Task of the training.
     pub fn task(&self) -> &str {
         &self.task
+    }
+
+    /// Whether an [`AreaShield`](crate::AreaShield) changes its actions in matches.
+    pub fn is_shielded(&self) -> bool {
+        self.is_shielded
+    }
+
+    /// Whether it plays from a forecast of the state in which its commands act.
+    pub fn needs_forecast(&self) -> bool {
+        self.needs_forecast
     }
 
     /// Observation blocks of the task, where the file names them.
@@ -238,6 +272,15 @@ fn whole(metadata: &BTreeMap<String, String>, name: &str, most: u32) -> Result<u
     }
 }
 
+/// Whether senses of a policy file have a forecast. They are a JSON object of numbers, or the name of code, which
+/// has none.
+fn needs_forecast(sensing: Option<&String>) -> Result<bool, MatchError> {
+    let Some(text) = sensing.filter(|text| text.starts_with('{')) else { return Ok(false) };
+    let senses: serde_json::Value = serde_json::from_str(text)
+        .map_err(|error| wrong(&format!("metadata 'sensing' should be JSON: {error}")))?;
+    Ok(senses["forecast"].as_f64().is_some_and(|switch| switch >= 0.5))
+}
+
 fn wrong(message: &str) -> MatchError {
     MatchError::Policy(message.to_owned())
 }
@@ -306,10 +349,18 @@ pub(crate) mod tests {
             ("clip", "-1"),
             ("action_repeat", "0"),
             ("history", "4"),
+            ("shield", "walls"),
+            ("sensing", "{"),
             ("observation_size", "20"),
         ] {
             let error = Network::read(&file(19, 2, &[(key, value)])).expect_err(key).to_string();
             assert!(error.contains(key), "{error}");
+        }
+        for (sensing, needs) in
+            [(r#"{"forecast":1.0}"#, true), (r#"{"forecast":0.0}"#, false), ("own:model", false)]
+        {
+            let network = Network::read(&file(19, 2, &[("sensing", sensing)])).expect("senses");
+            assert_eq!((network.needs_forecast(), network.is_shielded()), (needs, false));
         }
         let stacked = Network::read(&file(19, 2, &[("history", "3")])).expect("3 · 5 + 2 · 2");
         assert_eq!((stacked.plain_size(), stacked.history()), (5, 3));

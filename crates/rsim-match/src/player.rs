@@ -3,6 +3,7 @@
 use rsim_core::SimConfig;
 use rsim_core::streams::{units, words};
 
+use crate::area_shield::AreaShield;
 use crate::error::MatchError;
 use crate::network::Network;
 use crate::observations::Observations;
@@ -19,12 +20,15 @@ pub struct Player {
     /// Control steps played.
     age: u64,
     robots: Vec<Robot>,
+    shield: Option<AreaShield>,
 }
 
 /// Memory of a robot.
 #[derive(Debug, Clone)]
 struct Robot {
     held: Vec<f32>,
+    /// Action of the last control step: the held one, as a shield has changed it.
+    last: Vec<f32>,
     /// Observations before the current one, and the actions between, the newest first.
     observations: Vec<Vec<f32>>,
     actions: Vec<Vec<f32>>,
@@ -61,10 +65,12 @@ impl Player {
         let past = network.history() - 1;
         let robot = Robot {
             held: vec![0.0; actions],
+            last: vec![0.0; actions],
             observations: vec![vec![0.0; size]; past],
             actions: vec![vec![0.0; actions]; past],
         };
-        Ok(Self { network, observations, seed, age: 0, robots: vec![robot; robots] })
+        let shield = network.is_shielded().then(|| AreaShield::new(config)).transpose()?;
+        Ok(Self { network, observations, seed, age: 0, robots: vec![robot; robots], shield })
     }
 
     /// Observations that the network decides from.
@@ -79,7 +85,7 @@ impl Player {
 
     /// Last action of a robot of the team.
     pub(crate) fn last_action(&self, robot: usize) -> &[f32] {
-        &self.robots[robot].held
+        &self.robots[robot].last
     }
 
     /// Whether the next control step brings new decisions.
@@ -88,8 +94,15 @@ impl Player {
     }
 
     /// Decides for a robot of the team, and remembers: `observation` is the current one. `free` is false for
-    /// a robot that has to stand still, whose action is 0.
-    pub(crate) fn act(&mut self, robot: usize, observation: &[f32], free: bool) -> &[f32] {
+    /// a robot that has to stand still, whose action is 0. `shielded` is the index of the robot in a state row
+    /// and the row that it knows, where a shield may change its action.
+    pub(crate) fn act(
+        &mut self,
+        robot: usize,
+        observation: &[f32],
+        free: bool,
+        shielded: Option<(usize, &[f32])>,
+    ) -> &[f32] {
         let due = self.is_due();
         if self.age == 0 {
             let past = &mut self.robots[robot];
@@ -111,7 +124,11 @@ impl Player {
             robot.actions.rotate_right(1);
             robot.actions[0].copy_from_slice(&robot.held);
         }
-        &robot.held
+        robot.last.copy_from_slice(&robot.held);
+        if let (true, Some(shield), Some((index, row))) = (free, &self.shield, shielded) {
+            shield.apply(row, index, &mut robot.last);
+        }
+        &robot.last
     }
 
     /// Ends a control step.
@@ -174,15 +191,15 @@ mod tests {
         let mut seen = Vec::new();
         for step in 0..7 {
             let observation = vec![0.1 * step as f32; 80];
-            let first = player.act(0, &observation, true).to_vec();
-            let second = player.act(1, &observation, true).to_vec();
+            let first = player.act(0, &observation, true, None).to_vec();
+            let second = player.act(1, &observation, true, None).to_vec();
             assert_ne!(first, second);
             player.end_step();
             seen.push(first);
         }
         assert!(seen[0] == seen[2] && seen[3] == seen[5]);
         assert!(seen[2] != seen[3] && seen[5] != seen[6]);
-        let still = player.act(0, &[0.0; 80], false);
+        let still = player.act(0, &[0.0; 80], false, None);
         assert!(still.iter().all(|number| number.abs() < 1e-9));
     }
 
@@ -191,7 +208,7 @@ mod tests {
         let mut player = player(&[("history", "2")], 2 * 80 + 2).expect("it fits");
         let (first, second) = (vec![0.25; 80], vec![0.5; 80]);
         let begun = [first.clone(), first.clone()].concat();
-        let action = player.act(0, &first, true).to_vec();
+        let action = player.act(0, &first, true, None).to_vec();
         player.end_step();
         assert_eq!(player.stacked(0, &second), [second, first, action].concat());
         assert_eq!(begun.len(), 160);

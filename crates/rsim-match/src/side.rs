@@ -33,6 +33,8 @@ pub(crate) struct Known<'a> {
     /// Row that the team knows.
     pub(crate) row: &'a [f32],
     pub(crate) team: Team,
+    /// Whether the referee judges the goal areas, so that shields act.
+    pub(crate) judges_areas: bool,
 }
 
 impl Side {
@@ -62,7 +64,11 @@ impl Side {
 
     /// Whether it plays from the state in which its commands act, as the programs of teams do.
     pub(crate) fn forecasts(&self) -> bool {
-        matches!(self, Self::Scripted(..))
+        match self {
+            Self::Idle => false,
+            Self::Scripted(..) => true,
+            Self::Network(player) => player.network().needs_forecast(),
+        }
     }
 
     /// Writes the commands of the team's robots, one after the other.
@@ -96,7 +102,8 @@ fn act_by_network(
         let state = (known.referee, game);
         player.observations().observe(row, state, robot, &last, &mut observation)?;
         let free = knows_game || game.robot_may_touch(robot, team);
-        let action = player.act(nth, &observation, free);
+        let shielded = known.judges_areas.then_some((robot, row));
+        let action = player.act(nth, &observation, free, shielded);
         let columns = &row[BALL_COLUMNS.len() + robot * ROBOT_COLUMNS.len()..];
         if free && !is_absent(columns) {
             let size = actions.command_size();

@@ -244,6 +244,7 @@ impl Match {
                 game: &self.game,
                 row: &self.known[team.index()],
                 team,
+                judges_areas: self.setup.play == Play::Match,
             };
             let out = &mut self.commands[robots.start * size..robots.end * size];
             self.sides[team.index()].act(known, out)?;

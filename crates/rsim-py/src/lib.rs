@@ -3,6 +3,7 @@
 #![deny(unsafe_code)]
 #![allow(clippy::needless_pass_by_value)] // PyO3 hands arrays over by value
 
+mod area_shield;
 mod arguments;
 mod arrays;
 mod bounds;
@@ -27,6 +28,8 @@ use pyo3::prelude::*;
 /// Physics of robot soccer.
 #[pymodule]
 mod _core {
+    #[pymodule_export]
+    use crate::area_shield::AreaShield;
     #[pymodule_export]
     use crate::bounds::{clip_actions, clip_in_place};
     #[pymodule_export]

@@ -284,7 +284,8 @@ class LearnerPolicy:
                 indices = np.searchsorted(assignment.observers, robots)
             view = play.sensed_view.select(indices)
             known = play.known_to_robots(robots)
-            match = MatchState(known.rows, play.game, robots, play.threads)
+            config = self._matches.task.config
+            match = MatchState(known.rows, play.game, robots, play.threads, config)
         if self._policy.observes == "observation":
             own = observations if is_whole else observations[:, team.agents]
         optional = self._matches.task.optional_action_size

@@ -1,7 +1,7 @@
 """The interface of policies: scripts, noise and trained networks drive robots through it."""
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -33,6 +33,8 @@ class MatchState:
     """(robots,) indices of the robots that the policy drives, in the order of a state row."""
     threads: Threads
     """Threads that may share the work."""
+    config: SimConfig
+    """Field, ball and robots."""
 
     def take(self, worlds: NDArray[np.intp]) -> "MatchState":
         """Return a copy of some worlds.
@@ -40,7 +42,7 @@ class MatchState:
         Args:
             worlds: (k,) indices of worlds.
         """
-        return MatchState(self.rows[worlds], self.game.take(worlds), self.robots, self.threads)
+        return replace(self, rows=self.rows[worlds], game=self.game.take(worlds))
 
 
 @dataclass

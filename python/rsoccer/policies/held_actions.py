@@ -12,6 +12,7 @@ from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
 if TYPE_CHECKING:
     from rsoccer.arrays import Floats, Mask
     from rsoccer.history import ObservationStack
+    from rsoccer.policies.shield import Shield
     from rsoccer.rng import WorldRng
 
 
@@ -24,6 +25,8 @@ class HeldActions(Policy):
     """Control steps for which an action is held, at least 1."""
     stack: ObservationStack | None = None
     """Stacks the observations that the policy decides from; None if it decides from plain ones."""
+    shield: Shield | None = None
+    """Changes actions against rules of the referee; None for a policy without one."""
 
     def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> Memory:
         """Return the held action (n, robots, action), control steps played (n,), and the past."""
@@ -33,7 +36,14 @@ class HeldActions(Policy):
         return {"held": np.zeros(shape, np.float32), "age": np.zeros(shape[0], np.int64), **past}
 
     def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
-        """Return actions (n, robots, action): new decisions, or held ones."""
+        """Return actions (n, robots, action): new decisions, or held ones, behind the shield."""
+        actions = self._held(inputs, rng, memory)
+        if self.shield is not None and inputs.match is not None:
+            self.shield.apply(inputs.match, actions)
+        return actions
+
+    def _held(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
+        """New decisions, or held ones, in a new array."""
         observations = inputs.observations
         if observations is None:
             raise ValueError(f"a {type(self).__name__} needs observations (n, robots, o), got none")

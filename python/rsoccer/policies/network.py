@@ -80,6 +80,7 @@ class Network(HeldActions):
         self.head = policy_file.read_head(arrays, self.metadata, len(self.layers[-1][1]))
         self._activation = activation_of(self.activation)
         self.stack = policy_file.read_stack(self.metadata, self.observation_size, self.action_size)
+        self.shield = policy_file.read_shield(self.metadata)
         self.mode = self._checked_mode(mode)
         for name, size in self._sizes().items():
             if self.metadata.get(name) != str(size):
@@ -108,6 +109,7 @@ class Network(HeldActions):
         task_options: Mapping[str, Any] | None = None,
         sensing: SensingSource | None = None,
         randomization: Ranges | None = None,
+        shield: str | None = None,
     ) -> Self:
         """Return a network of weights that another program has trained.
 
@@ -139,6 +141,8 @@ class Network(HeldActions):
             sensing: what robots knew of the true state in the training, as for `Matches`; a note
                 in the file, which does not change how the policy plays.
             randomization: numbers that each episode of the training drew; a note, too.
+            shield: "goal_areas" to change actions against rules of VSSS, see
+                `rsoccer.policies.shield`; None for none.
 
         Raises:
             TypeError: neither a task nor its name, or something else than layers.
@@ -182,6 +186,7 @@ class Network(HeldActions):
             encoded = {name: option_values.encoded(name, v) for name, v in task_options.items()}
             metadata["task_options"] = json.dumps(encoded, sort_keys=True)
         metadata |= training_conditions.written(sensing, randomization)
+        metadata |= {} if shield is None else {"shield": shield}
         network = cls(arrays, metadata)
         network.check_fits(task, task.layout.size)
         return network

@@ -68,6 +68,7 @@ class OnnxPolicy(HeldActions):
         if self._own:
             _, self.action_repeat = policy_file.read_metadata(self.metadata)
             self.forecasts = self.needs_forecast = training_conditions.has_forecast(self.metadata)
+            self.shield = policy_file.read_shield(self.metadata)
         self.action_size = self._probed_size()
         if self._own:
             self.stack = policy_file.read_stack(

@@ -13,6 +13,7 @@ from typing import Final
 import numpy as np
 
 from rsoccer.arrays import Array
+from rsoccer.history import ObservationStack
 from rsoccer.observation_layout import ObservationLayout
 from rsoccer.policies.network import Network
 from rsoccer.registry import task_with_options
@@ -31,22 +32,22 @@ def fitted(policy: Network, task: Task) -> Network:
     of 0. Robots beyond those of the task are left out.
 
     Args:
-        policy: a policy of another task of the league, without a history.
+        policy: a policy of another task of the league.
         task: the task to play or to train on.
 
     Returns:
-        The policy for the task, in the same mode.
+        The policy for the task, in the same mode, with the same history and shield.
 
     Raises:
-        ValueError: a policy of the other league, with a history, or with an action that is longer
-            than the task's.
+        ValueError: a policy of the other league, with other observations than those of its task, or
+            with an action that is longer than the task's.
     """
     source = task_with_options(policy.task_name, policy.task_options)
     old, new = source.layout, task.layout
-    if policy.history > 1 or old.text != policy.metadata.get("layout"):
+    if old.text != policy.metadata.get("layout"):
         raise ValueError(
-            f"expected a policy without a history whose task has the observations of its training, "
-            f"got one of {policy.task_name!r} with a history of {policy.history}"
+            "expected a policy whose task has the observations of its training, got one of "
+            f"{policy.task_name!r} with others"
         )
     if source.config.command_columns != task.config.command_columns:
         raise ValueError(
@@ -57,11 +58,17 @@ def fitted(policy: Network, task: Task) -> Network:
             f"expected a policy with at most the {task.action_size} numbers of an action of "
             f"{task.name}, got {policy.action_size}"
         )
+    stack = ObservationStack(policy.history, old.size, policy.action_size)
+    wider = ObservationStack(policy.history, new.size, task.action_size)
     from_columns, to_columns = _common_columns(old, new)
+    actions = np.arange(policy.action_size)
+    from_columns = _stacked_columns(stack, from_columns, actions)
+    to_columns = _stacked_columns(wider, to_columns, actions)
     (weight, bias), *others = policy.layers
-    first = np.zeros((len(weight), new.size), np.float32)
+    size = wider.size
+    first = np.zeros((len(weight), size), np.float32)
     first[:, to_columns] = weight[:, from_columns]
-    mean, std = np.zeros(new.size, np.float32), np.ones(new.size, np.float32)
+    mean, std = np.zeros(size, np.float32), np.ones(size, np.float32)
     mean[to_columns], std[to_columns] = policy.mean[from_columns], policy.std[from_columns]
     *hidden, (last, last_bias) = others
     more = task.action_size - policy.action_size
@@ -73,9 +80,13 @@ def fitted(policy: Network, task: Task) -> Network:
         None if deviation is None else np.pad(deviation, (0, more), mode="edge"),
         activation=policy.activation,
         action_repeat=policy.action_repeat,
+        history=policy.history,
         mean=mean,
         std=std,
         clip=float(policy.clip),
+        sensing=policy.sensing,
+        randomization=policy.randomization,
+        shield=policy.metadata.get("shield"),
     )
     network.mode = policy.mode
     return network
@@ -90,6 +101,14 @@ def _common_columns(old: ObservationLayout, new: ObservationLayout) -> tuple[Arr
         for before, after in _common_rows(name, old, new)
     ]
     return np.concatenate([a for a, _ in pairs]), np.concatenate([b for _, b in pairs])
+
+
+def _stacked_columns(stack: ObservationStack, columns: Array, actions: Array) -> Array:
+    """Columns of a stacked observation for some of a plain one, and of each past action."""
+    first = stack.history * stack.observation_size
+    observed = [columns + nth * stack.observation_size for nth in range(stack.history)]
+    acted = [first + nth * stack.action_size + actions for nth in range(stack.history - 1)]
+    return np.concatenate([*observed, *acted])
 
 
 def _common_rows(

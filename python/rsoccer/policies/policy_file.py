@@ -21,7 +21,7 @@ The metadata are text:
 | `format` | `rsoccer-policy-2`; `-3` with a head or deviation | version of this format |
 | `task` | a task's name | task of the training, for `make_task` |
 | `task_options` | JSON object; optional | options of `make_task` that the training set |
-| `sensing` | JSON of a `Sensing`, or `module:name`; optional | what robots knew in training |
+| `sensing` | JSON of a `Sensing`, or `module:name`; optional | what robots know, see below |
 | `randomization` | JSON object; optional | distributions of numbers in training, by name |
 | `observation_size` | o | numbers in an observation, a stacked one with a `history` |
 | `action_size` | a | numbers in an action |
@@ -31,6 +31,7 @@ The metadata are text:
 | `clip` | above 0, default 10 | bound of a normalized observation, in standard deviations |
 | `action_repeat` | 1 (default) to 1000000 | control steps for which an action is held |
 | `history` | 1 (default) or more | observations in a stacked one, see `rsoccer.history` |
+| `shield` | `goal_areas`; optional | changes actions against rules, see `shield` |
 | `layout` | `Task.layout`; optional | observation blocks of the task; must equal those in play |
 | `training` | JSON object; optional | `command`, `samples`, `seed`, `package`, `physics` |
 | `scores` | JSON list; optional | results: objects with the fields of `Score` |
@@ -39,8 +40,10 @@ Other heads than the plain Gaussian, and deviations, are described in `rsoccer.p
 
 `training` says how the policy was made: the command, the decisions that it learned from, the seed,
 and the versions of the package and of its physics in which the scores were measured. `sensing` and
-`randomization` are those of the matches in which it learned, as `Matches` takes them; they are
-absent where robots knew the true state and no numbers varied. They do not change how it plays.
+`randomization` are those of the matches in which it learned, as `Matches` takes them, or for which
+a policy that learned on the true state was found to be good behind a forecast; they are absent
+where robots knew the true state and no numbers varied. Of them `forecast` alone changes how it
+plays: its team forecasts where senses are on.
 
 The outputs for an observation x are
 
@@ -67,6 +70,7 @@ from rsoccer.files import read_safetensors, safetensors_bytes, write_atomically
 from rsoccer.history import ObservationStack
 from rsoccer.policies.activations import ACTIVATIONS
 from rsoccer.policies.heads import Head
+from rsoccer.policies.shield import SHIELDS, Shield
 
 FORMAT: Final = "rsoccer-policy-2"
 """Version of the format. A new number makes older readers refuse the file."""
@@ -139,6 +143,26 @@ def read_metadata(metadata: Mapping[str, str]) -> tuple[np.float32, int]:
             f"got {metadata['action_repeat']!r}"
         )
     return np.float32(clip), repeat
+
+
+def read_shield(metadata: Mapping[str, str]) -> Shield | None:
+    """Read the shield of the policy's actions.
+
+    Args:
+        metadata: text by key.
+
+    Returns:
+        The shield; None for a policy without one.
+
+    Raises:
+        ValueError: an unknown shield.
+    """
+    name = metadata.get("shield")
+    if name is None:
+        return None
+    if name not in SHIELDS:
+        raise ValueError(f"metadata 'shield' should be one of {SHIELDS}, got {name!r}")
+    return Shield(name)
 
 
 def read_stack(metadata: Mapping[str, str], size: int, action_size: int) -> ObservationStack | None:

@@ -195,19 +195,9 @@ class Match(Soccer):
             "energy": rewards.energy(play) * (play.frame.robots.absent[:, play.observers] == 0.0),
             "fouls": -rewards.events_of_team(play, OFFENSES),
             "cards": -rewards.events_of_team(play, (EventKind.MULTIPLE_FOULS,)),
-            **self.league_terms(play, nearest),
         }
         done: Mask = play.game.stage == Stage.POST_GAME
         return rewards.weighted_terms(terms, self.term_weights), done
-
-    def league_terms(self, play: Play, nearest: Mask) -> dict[str, Floats]:  # noqa: ARG002 - for subclasses
-        """Return reward terms that one league alone has, unweighted, each (n, observers).
-
-        Args:
-            play: state of n worlds.
-            nearest: (n, observers) whether the robot is its team's nearest to the ball.
-        """
-        return {}
 
     @abstractmethod
     def approach(self, play: Play, nearest: Mask) -> Floats:

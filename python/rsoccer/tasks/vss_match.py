@@ -22,10 +22,6 @@ class VssMatch(Match, VssBase):
     Actions are those of `VssBase`; observations, rewards, end and metrics those of `Match`. On a
     field with two areas, as "vss_5v5", the rules are those of five a side.
 
-    One more reward term, `crowding`, is -1 for each second in which the robot is one too many in a
-    goal area with the ball, where two of a team are a foul: of those inside, the robot of the team
-    nearest to the ball does not pay. On a field with two areas it is the smaller one.
-
     Source: the league's referee (VSSSLeague/VSSReferee) for rules and positions.
     """
 
@@ -45,7 +41,6 @@ class VssMatch(Match, VssBase):
         "energy": 0.0002,
         "fouls": 0.5,
         "cards": 0.0,
-        "crowding": 0.0,
     }
     """Default weight of each reward term. VSSS has no cards."""
     PAPER_REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = REWARD_WEIGHTS
@@ -69,7 +64,3 @@ class VssMatch(Match, VssBase):
     def approach(self, play: Play, nearest: Mask) -> Floats:
         """Return the progress of each robot toward the point just behind the ball, m."""
         return rewards.approach_behind_ball(play, self.config.field)
-
-    def league_terms(self, play: Play, nearest: Mask) -> dict[str, Floats]:
-        """Return `crowding`, seconds."""
-        return {"crowding": rewards.crowding(play, self.config, nearest)}

@@ -43,6 +43,8 @@ _TEAM: Final[dict[str, Any]] = {
     "rollout.worlds": 1024,
     "ppo.n_minibatches": 16,
     "opponents.solo_fraction": 0.2,
+    # In matches under a referee; the tasks with a single goal have none.
+    "network.shield": "goal_areas",
 }
 """Settings of VSSS tasks in which a whole team learns."""
 
@@ -73,6 +75,8 @@ TASK_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
         # A team that has met nothing but noise loses to sides that defend and shoot.
         "opponents.fixed": {"ou": 2.0, "scripted": 2.0, "chase": 1.0},
     },
+    # Nothing was found that makes the policy of VSSSelfPlay-v0 better in matches.
+    "VSSMatch-v0": {**_TEAM, "network.initial_policy": "VSSSelfPlay-v0"},
     "VSSSelfPlay-v0": {
         **_TEAM,
         "samples": 20 * M,

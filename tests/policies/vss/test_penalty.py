@@ -71,7 +71,7 @@ def test_kicks_of_the_shootout_are_scored_and_saved(field: str) -> None:
 def masks(matches: Matches) -> tuple[list[int], list[int]]:
     """Robots that have a penalty kick, and robots that await one."""
     play = matches.play
-    match = MatchState(play.sensed.rows, play.game, np.arange(6), play.threads)
+    match = MatchState(play.sensed.rows, play.game, np.arange(6), play.threads, TASK.config)
     view = play.view
     kicking = penalty.kicks(match, ROLES, TASK.n_blue)
     waiting = penalty.awaits(match, view, ROLES, TASK.n_blue)

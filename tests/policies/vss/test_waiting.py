@@ -16,7 +16,7 @@ ROLES = np.array([[KEEPER, ATTACKER, SUPPORT, KEEPER, ATTACKER, SUPPORT]])
 def playing(matches: Matches, robots: list[int]) -> list[bool]:
     """Mask of the robots that play."""
     play = matches.play
-    match = MatchState(play.sensed.rows, play.game, np.array(robots), play.threads)
+    match = MatchState(play.sensed.rows, play.game, np.array(robots), play.threads, TASK.config)
     return [bool(robot) for robot in may_play(match, ROLES[:, robots], TASK.n_blue)[0]]
 
 

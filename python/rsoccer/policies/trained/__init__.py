@@ -27,10 +27,10 @@ TEAM_TASK: Final = "VSSMulti-v0"
 These are tasks derived from `VSSSelfPlay-v0`, in which whole teams play.
 """
 SKILLS: Final = {"VSSMatch-v0": "VSSSelfPlay-v0"}
-"""Tasks without a file that the policy of another task plays, see `rsoccer.policies.other_task`.
+"""Tasks without a file that the policies of another task play, see `rsoccer.policies.other_task`.
 
-A training of 6 million samples in matches that began with it made it worse
-(docs/learning-tried.md).
+Trainings of 5 to 8 million samples in matches that began with it made it worse
+(docs/learning-tried.md); the shield of its file is what it needs there.
 """
 FOLDER = Path(__file__).parent
 """Folder of the files."""
@@ -78,8 +78,7 @@ def load_best(task: Task, detail: str | None = None) -> Network:
     variant, mode = _variant_and_mode(detail)
     name = BEST if variant is None else f"{BEST}:{variant}"
     files = list_trained(variant)
-    # Policies with a history do not fit other tasks, so skills are those on the true state.
-    skills = SKILLS.get(task.name) if variant is None else None
+    skills = SKILLS.get(task.name)
     source = task.name if task.name in files else skills
     if source in files:
         network = Network.load(files[source], mode)

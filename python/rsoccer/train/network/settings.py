@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from rsoccer.policies.shield import SHIELDS
 from rsoccer.train.setting_types import Count, Natural, Positive, Signed, convert_fields, expect
 
 
@@ -33,7 +34,16 @@ class NetworkSettings:
     initial_policy: str | None = None
     """policy whose weights it begins with: best, a policy file, or another task for its best"""
 
+    shield: str | None = None
+    """goal_areas keeps VSSS robots from fouls in goal areas, in training and play"""
+
     def __post_init__(self) -> None:
         """Convert and check the values."""
         convert_fields(self, "network.")
+        expect(
+            "network.shield",
+            self.shield in (None, *SHIELDS),
+            f"one of {', '.join(SHIELDS)}",
+            self.shield,
+        )
         expect("network.hidden_sizes", bool(self.hidden_sizes), "one or more widths", ())

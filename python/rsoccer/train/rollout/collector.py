@@ -11,6 +11,7 @@ from torch import Tensor
 
 from rsoccer.arrays import Doubles, Floats, Mask
 from rsoccer.matches import Matches
+from rsoccer.policies.shield import Shield
 from rsoccer.reflection import Reflection
 from rsoccer.train.clock import Clock
 from rsoccer.train.network.actor_critic import ActorCritic
@@ -51,6 +52,7 @@ class RolloutCollector:
         *,
         central: CentralInputs | None = None,
         reflection: Reflection | None = None,
+        shield: Shield | None = None,
     ) -> None:
         """Create a collector; `enter` gives it matches.
 
@@ -63,8 +65,9 @@ class RolloutCollector:
             central: inputs of a centralized critic; None if the critic reads the observations.
             reflection: reflection of an observation that the statistics do not change under; None
                 for none.
+            shield: changes actions against rules of the referee; None for none.
         """
-        self._settings, self._generator = settings, generator
+        self._settings, self._generator, self._shield = settings, generator, shield
         self._evaluator, self._model = evaluator, evaluator.model
         self._clock, self.central = clock, central
         self.obs_rms = RunningMeanStd(self._model.observation_size, reflection=reflection)
@@ -131,6 +134,7 @@ class RolloutCollector:
                 actions.numpy().reshape(shape),
                 self._settings.action_repeat,
                 with_states=self.central is not None,
+                shield=self._shield,
             )
             self._record(transition, gamma)
             ended = transition.ended | self._draw_truncations()

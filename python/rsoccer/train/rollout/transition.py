@@ -11,6 +11,8 @@ import numpy as np
 
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.matches import Matches
+from rsoccer.policies.base import MatchState
+from rsoccer.policies.shield import Shield
 
 
 @dataclass
@@ -34,7 +36,12 @@ class Transition:
 
 
 def repeat_action(
-    matches: Matches, actions: Floats, action_repeat: int, *, with_states: bool = False
+    matches: Matches,
+    actions: Floats,
+    action_repeat: int,
+    *,
+    with_states: bool = False,
+    shield: Shield | None = None,
 ) -> Transition:
     """Hold actions for some control steps, in each world until its episode ends.
 
@@ -46,11 +53,12 @@ def repeat_action(
         actions: (n, agents, action) actions in [-1, 1].
         action_repeat: control steps, at least 1.
         with_states: return the global states, too.
+        shield: changes the actions of each control step; None for none.
 
     Returns:
         The transition from before the first step to after the last.
     """
-    outcome = matches.step(actions)
+    outcome = matches.step(_shielded(matches, actions, shield))
     result = Transition(
         outcome.observations,
         outcome.rewards,
@@ -62,7 +70,7 @@ def repeat_action(
     )
     for _ in range(action_repeat - 1):
         playing = ~result.ended
-        outcome = matches.step(actions)
+        outcome = matches.step(_shielded(matches, actions, shield))
         result.rewards += outcome.rewards * playing[:, None]
         for name, term in outcome.terms.items():
             result.terms[name] += float((term * playing[:, None]).mean())
@@ -76,3 +84,19 @@ def repeat_action(
         for name, values in outcome.metrics.items():
             result.metrics[name][playing] = values[playing]
     return result
+
+
+def _shielded(matches: Matches, actions: Floats, shield: Shield | None) -> Floats:
+    """The learners' actions of a control step, behind the shield."""
+    if shield is None:
+        return actions
+    play, config, shielded = matches.play, matches.task.config, actions.copy()
+    learners = matches.assignment.learners
+    for team in (learners < config.n_blue, learners >= config.n_blue):  # each has its own senses
+        if team.any():
+            robots = learners[team]
+            known = play.known_to_robots(robots)
+            part = shielded[:, team]
+            shield.apply(MatchState(known.rows, play.game, robots, play.threads, config), part)
+            shielded[:, team] = part
+    return shielded

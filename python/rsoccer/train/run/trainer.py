@@ -15,6 +15,7 @@ from rsoccer.history import ObservationStack
 from rsoccer.matches import Matches
 from rsoccer.policies import training_conditions
 from rsoccer.policies.network import Network
+from rsoccer.policies.shield import Shield
 from rsoccer.sources import closed_on_error
 from rsoccer.train.args import Args
 from rsoccer.train.clock import Clock
@@ -211,6 +212,9 @@ class Trainer:
         )
         matches = self.collector.matches
         network.metadata |= training_conditions.written(matches.sensing, matches.randomization)
+        if args.network.shield is not None:
+            network.metadata["shield"] = args.network.shield
+            network.shield = Shield(args.network.shield)
         return network
 
 
@@ -239,4 +243,5 @@ def _collector(args: Args, trainer: Trainer) -> RolloutCollector:
         trainer.curriculum.kinds,
         central=central,
         reflection=trainer.stack.reflection(task) if symmetric else None,
+        shield=None if args.network.shield is None else Shield(args.network.shield),
     )

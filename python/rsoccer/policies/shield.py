@@ -1,0 +1,61 @@
+"""Shields: they change actions of a policy that would break a rule of the referee.
+
+A policy that has learned without a referee may play well and yet lose what it wins to fouls. A
+shield leaves its actions alone but for those: "goal_areas" keeps VSSS robots out of goal areas in
+which the referee allows no more of their team (`rsoccer._core.AreaShield`). It acts in matches
+under a referee alone.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from rsoccer._core import AreaShield
+
+if TYPE_CHECKING:
+    from rsoccer._core import SimConfig
+    from rsoccer.arrays import Floats
+    from rsoccer.policies.base import MatchState
+
+GOAL_AREAS: Final = "goal_areas"
+SHIELDS: Final = (GOAL_AREAS,)
+"""Names of shields."""
+
+
+class Shield:
+    """A shield by name, for the robots of any match of its league."""
+
+    def __init__(self, name: str) -> None:
+        """Choose the shield.
+
+        Args:
+            name: one of `SHIELDS`.
+
+        Raises:
+            ValueError: another name.
+        """
+        if name not in SHIELDS:
+            raise ValueError(f"shield: expected one of {SHIELDS}, got {name!r}")
+        self._config: SimConfig | None = None
+        self._core: AreaShield | None = None
+
+    def apply(self, match: MatchState, actions: Floats) -> None:
+        """Change actions where the referee would be against them.
+
+        Args:
+            match: the match as the robots know it.
+            actions: (n, robots, action) actions of its robots; changed in place.
+
+        Raises:
+            ValueError: robots without a differential drive.
+        """
+        if "referee" not in match.game:
+            return
+        if self._core is None or self._config is not match.config:
+            self._config, self._core = match.config, AreaShield(match.config)
+        changed = np.ascontiguousarray(actions, np.float32)
+        self._core.apply(match.rows, match.robots.tolist(), changed, match.threads)
+        if changed is not actions:
+            actions[...] = changed

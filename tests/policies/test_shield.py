@@ -1,0 +1,134 @@
+"""Shields of policies against fouls in goal areas."""
+
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import rsoccer
+from rsoccer import Matches
+from rsoccer._core import AreaShield, Threads
+from rsoccer.arrays import Floats
+from rsoccer.frame import Frame
+from rsoccer.game import EventKind
+from rsoccer.policies import make_policy
+from rsoccer.policies.network import Network
+from rsoccer.policies.shield import Shield
+from rsoccer.tasks import SslMatch, VssMatch
+from rsoccer.train import Args
+from tests.helpers import same
+from tests.policies.networks import network_for
+
+TASK = VssMatch(half_seconds=20.0, halves=1)
+
+
+def crowd(worlds: int = 1) -> Floats:
+    """Two robots of blue before yellow's goal area, and the ball in it."""
+    frame = Frame.empty(worlds, 3, 3)
+    frame.ball.position[:] = 0.68, 0.1
+    frame.robots.position[:, :, 1] = np.linspace(-0.5, 0.5, 6)
+    frame.robots.position[:, :2] = (0.55, 0.1), (0.53, -0.2)
+    frame.robots.heading[:] = 1.0, 0.0
+    return frame.rows
+
+
+def fouls(policy: str | Network) -> Counter[tuple[str, int]]:
+    """Events of 8 matches of a policy, as blue, against a script."""
+    controllers = {"blue": policy, "yellow": "scripted"}
+    matches = Matches(TASK, 8, controllers=controllers, autoreset="disabled")
+    matches.reset()
+    found: Counter[tuple[str, int]] = Counter()
+    for _ in range(1200):
+        matches.step(np.zeros((8, 0, 2), np.float32))
+        for world in range(8):
+            events = matches.play.events.of_world(world)
+            found.update((event.kind.name, event.team) for event in events)
+    return found
+
+
+def test_it_stops_all_but_the_nearest_robot_for_any_number_of_threads() -> None:
+    shield, robots = AreaShield(TASK.config), [0, 1, 2]
+    actions = np.ones((600, 3, 2), np.float32)
+    shield.apply(crowd(600), robots, actions)
+    assert (actions[:, [0, 2]] == 1.0).all()
+    assert (actions[:, 1] == 0.0).all()
+    shared = np.ones((600, 3, 2), np.float32)
+    shield.apply(crowd(600), robots, shared, Threads(2))
+    assert same(shared, actions)
+
+
+@pytest.mark.parametrize(
+    ("changes", "error", "message"),
+    [
+        ({"rows": crowd()[:, :-1].copy()}, ValueError, "rows"),
+        ({"robots": [6]}, ValueError, "robots: expected indices below 6, got 6"),
+        ({"actions": np.ones((1, 2, 2), np.float32)}, ValueError, "actions"),
+        ({"actions": np.ones((1, 1, 2))}, TypeError, "actions"),
+    ],
+)
+def test_wrong_arrays_are_named(changes: dict[str, Any], error: type, message: str) -> None:
+    right = {"rows": crowd(), "robots": [0], "actions": np.ones((1, 1, 2), np.float32)}
+    with pytest.raises(error, match=message):
+        AreaShield(TASK.config).apply(**{**right, **changes})
+
+
+def test_other_drives_and_other_names_are_refused() -> None:
+    with pytest.raises(ValueError, match="expected robots with a differential drive"):
+        AreaShield(SslMatch().config)
+    with pytest.raises(ValueError, match=r"shield: expected one of \('goal_areas',\), got 'walls'"):
+        Shield("walls")
+    with pytest.raises(ValueError, match=r"network\.shield must be one of goal_areas, got 'walls'"):
+        Args.from_json({"task": "VSSMatch-v0", "network.shield": "walls"})
+
+
+def test_it_belongs_to_a_policy_file_and_acts_under_a_referee_alone(tmp_path: Path) -> None:
+    network = network_for(TASK)
+    assert network.shield is None
+    network.metadata["shield"] = "goal_areas"
+    network.save(tmp_path / "a.safetensors")
+    assert Network.load(tmp_path / "a.safetensors").shield is not None
+    network.metadata["shield"] = "walls"
+    network.save(tmp_path / "b.safetensors")
+    with pytest.raises(ValueError, match="metadata 'shield' should be one of"):
+        Network.load(tmp_path / "b.safetensors")
+    shielded = make_policy("best:mean", "VSSSelfPlay-v0")
+    bare = make_policy("best:mean", "VSSSelfPlay-v0")
+    assert isinstance(bare, Network)
+    bare.shield = None
+    rows = []
+    for policy in (shielded, bare):
+        matches = Matches("VSSSelfPlay-v0", controllers={"all": policy})
+        matches.reset(rows=crowd())
+        for _ in range(40):
+            matches.step(np.zeros((1, 0, 2), np.float32))
+        rows.append(matches.frame.rows.copy())
+    assert same(*rows)
+
+
+def test_goals_that_did_not_count_count() -> None:
+    bare = make_policy("best", TASK)
+    assert isinstance(bare, Network)
+    bare.shield = None
+    without, behind = fouls(bare), fouls("best")
+    assert without["INVALID_GOAL", 0] > 5
+    assert behind["INVALID_GOAL", 0] < without["INVALID_GOAL", 0] / 5
+    assert behind["GOAL", 0] > 3 * without["GOAL", 0]
+    crowded = EventKind.ATTACKER_TOUCHED_BALL_IN_DEFENSE_AREA.name
+    assert behind[crowded, 0] <= without[crowded, 0]
+
+
+def test_trainings_act_behind_it(tmp_path: Path) -> None:
+    settings = {
+        "task": "VSSMatch-v0",
+        "out": str(tmp_path / "run"),
+        "samples": 400,
+        "rollout.worlds": 4,
+        "ppo.n_minibatches": 2,
+        "network.shield": "goal_areas",
+        "task_options": {"half_seconds": 1.0, "halves": 1},
+    }
+    rsoccer.train.train(Args.from_json(settings))
+    trained = Network.load(tmp_path / "run" / "policy.safetensors")
+    assert trained.metadata["shield"] == "goal_areas"
