@@ -87,7 +87,7 @@ def test_a_history_is_taken_along_with_each_of_its_parts() -> None:
         history=5,
         sensing="rc2021",
         randomization={"robot.mass": (0.9, 1.1)},
-        shield="goal_areas",
+        shield="vsss",
     )
     policy.layers[0][0][:] += np.random.default_rng(1).normal(size=policy.layers[0][0].shape) / 50
     other = fitted(policy, task)

@@ -77,16 +77,16 @@ def test_wrong_arrays_are_named(changes: dict[str, Any], error: type, message: s
 def test_other_drives_and_other_names_are_refused() -> None:
     with pytest.raises(ValueError, match="expected robots with a differential drive"):
         AreaShield(SslMatch().config)
-    with pytest.raises(ValueError, match=r"shield: expected one of \('goal_areas',\), got 'walls'"):
+    with pytest.raises(ValueError, match=r"shield: expected one of \('vsss',\), got 'walls'"):
         Shield("walls")
-    with pytest.raises(ValueError, match=r"network\.shield must be one of goal_areas, got 'walls'"):
+    with pytest.raises(ValueError, match=r"network\.shield must be one of vsss, got 'walls'"):
         Args.from_json({"task": "VSSMatch-v0", "network.shield": "walls"})
 
 
 def test_it_belongs_to_a_policy_file_and_acts_under_a_referee_alone(tmp_path: Path) -> None:
     network = network_for(TASK)
     assert network.shield is None
-    network.metadata["shield"] = "goal_areas"
+    network.metadata["shield"] = "vsss"
     network.save(tmp_path / "a.safetensors")
     assert Network.load(tmp_path / "a.safetensors").shield is not None
     network.metadata["shield"] = "walls"
@@ -105,6 +105,19 @@ def test_it_belongs_to_a_policy_file_and_acts_under_a_referee_alone(tmp_path: Pa
             matches.step(np.zeros((1, 0, 2), np.float32))
         rows.append(matches.frame.rows.copy())
     assert same(*rows)
+
+
+def test_robots_stand_while_they_may_not_touch_the_ball() -> None:
+    matches = Matches(TASK, 2, controllers={"all": "best"})
+    matches.reset()
+    assert not matches.play.game.may_touch.any()
+    for _ in range(4):
+        matches.step(np.zeros((2, 0, 2), np.float32))
+        assert not matches.play.actions.any()
+    while not matches.play.game.may_touch.all():
+        matches.step(np.zeros((2, 0, 2), np.float32))
+    matches.step(np.zeros((2, 0, 2), np.float32))
+    assert matches.play.actions.all(axis=2).any()
 
 
 def test_goals_that_did_not_count_count() -> None:
@@ -126,9 +139,9 @@ def test_trainings_act_behind_it(tmp_path: Path) -> None:
         "samples": 400,
         "rollout.worlds": 4,
         "ppo.n_minibatches": 2,
-        "network.shield": "goal_areas",
+        "network.shield": "vsss",
         "task_options": {"half_seconds": 1.0, "halves": 1},
     }
     rsoccer.train.train(Args.from_json(settings))
     trained = Network.load(tmp_path / "run" / "policy.safetensors")
-    assert trained.metadata["shield"] == "goal_areas"
+    assert trained.metadata["shield"] == "vsss"

@@ -93,6 +93,20 @@ def test_best_plays_whole_matches_with_the_skills_of_another_task(options: dict[
     assert policy.shield is not None
 
 
+def test_files_with_the_skills_of_a_match_play_it(tmp_path: Path) -> None:
+    source = rsoccer.make_task("VSSSelfPlay-v0")
+    policies.make_policy("best", source).save(tmp_path / "a.safetensors")  # type: ignore[attr-defined]
+    match = rsoccer.make_task("VSSMatch-v0", half_seconds=2.0)
+    own = policies.make_policy(f"{tmp_path / 'a.safetensors'}:mean", match)
+    best = policies.make_policy("best:mean", match)
+    assert isinstance(own, Network)
+    assert isinstance(best, Network)
+    assert own.mode == "mean"
+    assert all(np.array_equal(a, best.arrays()[name]) for name, a in own.arrays().items())
+    with pytest.raises(ValueError, match="a network trained on 'VSSSelfPlay-v0' has observation"):
+        policies.make_policy(tmp_path / "a.safetensors", rsoccer.make_task("SSLMatch-v0"))
+
+
 def test_the_error_names_the_tasks_that_have_a_policy(folder: Path) -> None:
     save(folder, "SSLGoToBall-v0")
     message = (

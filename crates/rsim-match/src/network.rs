@@ -13,7 +13,7 @@ const MAX_ACTION_REPEAT: u32 = 1_000_000;
 /// Most observations in a stacked one.
 const MAX_HISTORY: u32 = 1000;
 /// Name of the shield that a policy may have.
-const SHIELD: &str = "goal_areas";
+const SHIELD: &str = "vsss";
 /// Products that are summed side by side.
 const LANES: usize = 8;
 

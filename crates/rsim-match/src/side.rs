@@ -95,8 +95,8 @@ fn act_by_network(
     let Known { actions, game, row, team, .. } = known;
     let robots = robots_of(team, known.config);
     let mut observation = vec![0.0; player.observations().size()];
-    // A policy that does not observe the state of the match cannot know when it may play.
-    let knows_game = player.observations().has_game();
+    // A policy that does not observe the state of the match cannot know when it may play; a shield knows.
+    let knows_game = player.observations().has_game() && !player.network().is_shielded();
     for (nth, robot) in robots.enumerate() {
         let last = player.last_action(nth).to_vec();
         let state = (known.referee, game);

@@ -92,8 +92,6 @@ def check_policy_names(names: Iterable[str | None]) -> None:
 
 def _default_policy(task: Task) -> str:
     """The policy that was trained on a task, or a script that plays in the place of one."""
-    if task.name in trained.SKILLS:  # it has learned no restarts, which the script obeys
-        return script_of(task)
     try:
         trained.load_best(task)
     except ValueError:

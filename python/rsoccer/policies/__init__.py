@@ -219,8 +219,10 @@ def _load(text: str, task: Task | None = None) -> Network | OnnxPolicy:
 
         return OnnxPolicy.load(path, mode, task)
     from rsoccer.policies.network import Network
+    from rsoccer.policies.trained import with_skills
 
-    return Network.load(path, mode)
+    network = Network.load(path, mode)
+    return network if task is None else with_skills(network, task)
 
 
 def _expected(path: str) -> str:

@@ -141,7 +141,7 @@ class Network(HeldActions):
             sensing: what robots knew of the true state in the training, as for `Matches`; a note
                 in the file, which does not change how the policy plays.
             randomization: numbers that each episode of the training drew; a note, too.
-            shield: "goal_areas" to change actions against rules of VSSS, see
+            shield: "vsss" to change actions against rules of VSSS, see
                 `rsoccer.policies.shield`; None for none.
 
         Raises:

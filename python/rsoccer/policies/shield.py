@@ -1,9 +1,9 @@
 """Shields: they change actions of a policy that would break a rule of the referee.
 
 A policy that has learned without a referee may play well and yet lose what it wins to fouls. A
-shield leaves its actions alone but for those: "goal_areas" keeps VSSS robots out of goal areas in
-which the referee allows no more of their team (`rsoccer._core.AreaShield`). It acts in matches
-under a referee alone.
+shield leaves its actions alone but for those: "vsss" keeps robots of VSSS out of goal areas in
+which the referee allows no more of their team (`rsoccer._core.AreaShield`), and has them stand
+while they may not touch the ball. It acts in matches under a referee alone.
 """
 
 from __future__ import annotations
@@ -19,8 +19,7 @@ if TYPE_CHECKING:
     from rsoccer.arrays import Floats
     from rsoccer.policies.base import MatchState
 
-GOAL_AREAS: Final = "goal_areas"
-SHIELDS: Final = (GOAL_AREAS,)
+SHIELDS: Final = ("vsss",)
 """Names of shields."""
 
 
@@ -57,5 +56,6 @@ class Shield:
             self._config, self._core = match.config, AreaShield(match.config)
         changed = np.ascontiguousarray(actions, np.float32)
         self._core.apply(match.rows, match.robots.tolist(), changed, match.threads)
+        changed[~match.game.may_touch[:, match.robots]] = 0.0
         if changed is not actions:
             actions[...] = changed

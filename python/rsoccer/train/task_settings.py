@@ -44,7 +44,7 @@ _TEAM: Final[dict[str, Any]] = {
     "ppo.n_minibatches": 16,
     "opponents.solo_fraction": 0.2,
     # In matches under a referee; the tasks with a single goal have none.
-    "network.shield": "goal_areas",
+    "network.shield": "vsss",
 }
 """Settings of VSSS tasks in which a whole team learns."""
 

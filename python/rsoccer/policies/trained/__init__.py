@@ -27,7 +27,7 @@ TEAM_TASK: Final = "VSSMulti-v0"
 These are tasks derived from `VSSSelfPlay-v0`, in which whole teams play.
 """
 SKILLS: Final = {"VSSMatch-v0": "VSSSelfPlay-v0"}
-"""Tasks without a file that the policies of another task play, see `rsoccer.policies.other_task`.
+"""Tasks that the policies of another task play, see `rsoccer.policies.other_task`.
 
 Trainings of 5 to 8 million samples in matches that began with it made it worse
 (docs/learning-tried.md); the shield of its file is what it needs there.
@@ -83,8 +83,7 @@ def load_best(task: Task, detail: str | None = None) -> Network:
     if source in files:
         network = Network.load(files[source], mode)
         try:
-            if source != task.name:
-                network = fitted(network, task)
+            network = with_skills(network, task)
             network.check_fits(task, task.layout.size)
         except ValueError as error:
             raise ValueError(f"{name}: {error}") from error
@@ -100,6 +99,23 @@ def load_best(task: Task, detail: str | None = None) -> Network:
         f"{name}: expected a task with {kind} policy, got {task.name}; "
         f"there are policies for {', '.join(names) or 'no task'}"
     )
+
+
+def with_skills(network: Network, task: Task) -> Network:
+    """Return a policy for a task that it was trained on, or has the skills for.
+
+    Args:
+        network: the policy.
+        task: the task that is played.
+
+    Returns:
+        The policy itself; for a task in `SKILLS` that its own task has the skills for, the one with
+        its weights.
+
+    Raises:
+        ValueError: a policy with other observations than those of its task.
+    """
+    return fitted(network, task) if SKILLS.get(task.name) == network.task_name else network
 
 
 def _ending(variant: str | None) -> str:

@@ -35,7 +35,7 @@ class NetworkSettings:
     """policy whose weights it begins with: best, a policy file, or another task for its best"""
 
     shield: str | None = None
-    """goal_areas keeps VSSS robots from fouls in goal areas, in training and play"""
+    """vsss keeps robots from fouls of VSSS, in training and play"""
 
     def __post_init__(self) -> None:
         """Convert and check the values."""
