@@ -156,10 +156,11 @@ physics: $(VENV)/built ## measure the physics and regenerate docs/physics.md wit
 golden: $(VENV)/tools ## renew the golden hashes of the physics after a raise of PHYSICS_VERSION
 	RSIM_RENEW_GOLDEN=1 $(CARGO) test --locked --test all golden::
 
-soak: $(VENV)/built ## run ten million ticks of random play under each engine and a million steps of crowds per task, and whole matches (many minutes)
+soak: $(VENV)/built ## run ten million ticks of random play under each engine, a million steps of crowds per task, a million packets per port, and whole matches (many minutes)
 	RSIM_TEST_ENGINE=rapier RSIM_SOAK_TICKS=10000000 $(CARGO) test --locked --release --test all soak:: -- --nocapture
 	RSIM_TEST_ENGINE=compact RSIM_SOAK_TICKS=10000000 $(CARGO) test --locked --release --test all soak:: -- --nocapture
 	RSOCCER_SOAK_STEPS=1000000 $(BIN)/python -m pytest tests/testing/test_pressure.py --numprocesses auto
+	RSOCCER_FLOOD_PACKETS=1000000 $(BIN)/python -m pytest tests/bridge/test_floods.py -k nothing_breaks
 	$(BIN)/python -m tools.soak_matches --store
 
 agreement: $(VENV)/built ## compare the contact engines over whole matches and a short training (half an hour)

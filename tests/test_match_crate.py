@@ -13,6 +13,7 @@ import pytest
 import rsoccer
 from rsoccer.human import driver
 from rsoccer.policies import policy_file
+from rsoccer.policies.shield import SHIELDS
 from rsoccer.rules.referee_config import PRESETS, RefereeConfig
 from rsoccer.tasks import ssl
 from rsoccer.tasks.match import GAME_BLOCK, GAME_LIMIT
@@ -52,6 +53,7 @@ def test_numbers_are_those_of_the_package(file: str, name: str, expected: float)
 
 def test_policy_files_have_the_same_format() -> None:
     assert constant("network.rs", "FORMAT") == f'"{policy_file.FORMAT}"'
+    assert constant("network.rs", "SHIELD") in [f'"{name}"' for name in SHIELDS]
 
 
 def test_bounds_of_observations_are_those_of_the_tasks() -> None:

@@ -108,8 +108,6 @@ def ship(
     scores = _scores(candidate, task, opponents, starts, threads, senses_of(network))
     network.metadata |= {"scores": scores_text(scores), "training": json.dumps(training)}
     network.save(candidate, half_precision=True)
-    if candidate.stat().st_size > MAX_SIZE:
-        raise ValueError(f"run: expected a policy of at most {MAX_SIZE} bytes, got {candidate}")
     _put(candidate, path)
     return path
 
@@ -132,7 +130,7 @@ def ship_behind_forecast(
         The file in the package; an existing one has been replaced.
 
     Raises:
-        ValueError: a task without a policy, or too few starts.
+        ValueError: a task without a policy, a file that is too large, or too few starts.
     """
     checks.integer("starts", starts, MIN_PER_SIDE)
     source = trained.list_trained().get(name)
@@ -154,6 +152,8 @@ def ship_behind_forecast(
 
 def _put(candidate: Path, path: Path) -> None:
     """Put a file into the package, and print the scores of the one that it replaces."""
+    if candidate.stat().st_size > MAX_SIZE:
+        raise ValueError(f"run: expected a policy of at most {MAX_SIZE} bytes, got {candidate}")
     if path.exists():
         print("before:", *trained.list_scores(path), sep="\n    ")
     write_atomically(path, candidate.read_bytes())

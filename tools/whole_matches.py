@@ -29,9 +29,9 @@ class WholeMatch:
 
 WHOLE_MATCHES: Final = {
     "SSLMatch-v0": WholeMatch("scripted", "scripted:0.5"),
-    "VSSMatch-v0": WholeMatch("scripted", "chase"),
+    "VSSMatch-v0": WholeMatch("best", "scripted"),
 }
-"""Matches by task: six SSL robots a side, and three of VSSS."""
+"""Matches by task: six SSL robots a side, and three of VSSS, of which one side has learned."""
 
 
 def record(name: str, seconds: float = SECONDS) -> Replay:

@@ -1158,8 +1158,9 @@ class AreaShield:
 
     With the ball in a goal area two robots of a team there are a foul, at either end, and a goal
     does not count after it. Where a robot would be one too many, the shield stops it before the
-    area, or has it leave. On a field with two areas it is the smaller one, and in the larger one
-    the referee's limits hold.
+    area, or has it leave. On a field with two areas it is the smaller one, and the larger one has
+    limits of its own. The limits are those of the league's presets, "vsss_3v3" and "vsss_5v5",
+    whatever the rules of a match say.
 
     Args:
         config: Field and robots.

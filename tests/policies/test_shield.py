@@ -8,18 +8,22 @@ import numpy as np
 import pytest
 
 import rsoccer
-from rsoccer import Matches
+from rsoccer import LEARN, Matches
 from rsoccer._core import AreaShield, Threads
 from rsoccer.arrays import Floats
 from rsoccer.frame import Frame
 from rsoccer.game import EventKind
+from rsoccer.history import ObservationStack
 from rsoccer.policies import make_policy
 from rsoccer.policies.network import Network
 from rsoccer.policies.shield import Shield
 from rsoccer.tasks import SslMatch, VssMatch
 from rsoccer.train import Args
+from rsoccer.train.rollout.transition import repeat_action
+from tests.games import begin_play
 from tests.helpers import same
 from tests.policies.networks import network_for
+from tests.test_view import rotated
 
 TASK = VssMatch(half_seconds=20.0, halves=1)
 
@@ -97,14 +101,20 @@ def test_it_belongs_to_a_policy_file_and_acts_under_a_referee_alone(tmp_path: Pa
     bare = make_policy("best:mean", "VSSSelfPlay-v0")
     assert isinstance(bare, Network)
     bare.shield = None
-    rows = []
+    rows, would = [], False
     for policy in (shielded, bare):
         matches = Matches("VSSSelfPlay-v0", controllers={"all": policy})
         matches.reset(rows=crowd())
+        core = AreaShield(matches.task.config)
         for _ in range(40):
+            before = matches.frame.rows.copy()
             matches.step(np.zeros((1, 0, 2), np.float32))
+            changed = matches.play.actions.copy()
+            core.apply(before, list(range(6)), changed)
+            would |= not same(changed, matches.play.actions)
         rows.append(matches.frame.rows.copy())
     assert same(*rows)
+    assert would, "under a referee it would have acted"
 
 
 def test_robots_stand_while_they_may_not_touch_the_ball() -> None:
@@ -145,3 +155,43 @@ def test_trainings_act_behind_it(tmp_path: Path) -> None:
     rsoccer.train.train(Args.from_json(settings))
     trained = Network.load(tmp_path / "run" / "policy.safetensors")
     assert trained.metadata["shield"] == "vsss"
+    with pytest.raises(ValueError, match=r"^network\.shield: config: expected robots with a diff"):
+        rsoccer.train.train(Args.from_json({**settings, "task": "SSLMatch-v0"}))
+
+
+@pytest.mark.parametrize("sensing", [None, "rc2021, forecast=1"])
+def test_actions_of_learners_of_both_teams_are_changed(sensing: str | None) -> None:
+    task = VssMatch()
+    matches = Matches(task, 2, controllers={"all": LEARN}, sensing=sensing)
+    matches.reset()
+    actions = np.full((2, 6, 2), 1.5, np.float32)
+    repeat_action(matches, actions, 1, shield=Shield("vsss"))
+    assert not matches.play.actions.any(), "before the kick-off"
+    begin_play(matches)
+    rows = crowd(2)
+    rows[1] = rotated(Frame(rows[1:].copy(), 3, 3)).rows[0]  # yellow before blue's area
+    matches.reset(rows=rows)
+    begin_play(matches)
+    matches.step(np.zeros_like(actions))  # from now on all may touch the ball
+    repeat_action(matches, actions, 1, shield=Shield("vsss"))
+    stopped = (matches.play.actions == 0.0).all(axis=2)
+    assert stopped.tolist() == [[False, True] + [False] * 4, [False] * 4 + [True, False]]
+
+
+def test_a_history_has_the_actions_that_robots_did() -> None:
+    """As in training, where `Matches` stacks them."""
+    stack = ObservationStack.of(TASK, 3)
+    network = Network.from_layers(
+        TASK,
+        [(np.zeros((2, stack.size), np.float32), np.full(2, 0.5, np.float32))],
+        history=3,
+        action_repeat=3,
+        shield="vsss",
+    )
+    matches = Matches(TASK, controllers={"all": network})
+    matches.reset()
+    group = matches.assignment.groups[0]
+    for _ in range(4):
+        matches.step(np.zeros((1, 0, 2), np.float32))
+        assert not group.memory["past_actions"].any(), "all robots stand in the stop"
+        assert group.memory["held"].any()

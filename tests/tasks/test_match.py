@@ -128,21 +128,23 @@ def test_field_and_rules_follow_from_division_and_table() -> None:
 
 
 def test_no_two_vsss_matches_of_the_same_scripts_are_alike() -> None:
-    task = VssMatch(half_seconds=20.0)
+    task = VssMatch(half_seconds=60.0)
     matches = Matches(task, 4, controllers={"all": "chase"}, autoreset="disabled")
     matches.reset()
-    places = matches.frame.robots.position.copy()
-    error = task.referee_config.placement_error
-    spread = np.ptp(places, axis=0)
-    assert ((spread > 0.0) & (spread <= 2.0 * error + 1e-6)).all()
-    balls, kickoffs = [], []
-    for _ in range(1600):
+    spread = np.ptp(matches.frame.robots.position, axis=0)
+    assert ((spread > 0.0) & (spread <= 2.0 * task.referee_config.placement_error + 1e-6)).all()
+    kickoffs: dict[int, Floats] = {}  # places at the first kick-off after a goal
+    prepared = (Command.PREPARE_KICKOFF_BLUE, Command.PREPARE_KICKOFF_YELLOW)
+    for _ in range(4000):
         matches.step(zeros(matches))
-        balls.append(matches.frame.ball.position.copy())
-        if matches.play.events.happened(EventKind.GOAL)[0]:
-            kickoffs.append(len(balls))
-    assert kickoffs  # one of them plays at least one more kick-off
-    assert len(np.unique(np.stack(balls)[-1], axis=0)) == 4
+        game = matches.play.game
+        for world in np.flatnonzero(np.isin(game.command, prepared) & game.score.any(axis=1)):
+            kickoffs.setdefault(int(world), matches.frame.robots.position[world].copy())
+        if len(kickoffs) == 4:
+            break
+    assert len(kickoffs) == 4
+    spread = np.ptp(np.stack(list(kickoffs.values())), axis=0)
+    assert (spread > 0.0).all()
     exact = VssMatch(referee={"placement_error": 0.0})
     matches = Matches(exact, 4, controllers={"all": "chase"})
     matches.reset()

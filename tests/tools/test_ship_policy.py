@@ -16,7 +16,7 @@ from rsoccer.policies.network import Network
 from rsoccer.train import Args, NetworkSettings, train
 from tests.policies.networks import network_for
 from tests.train.one_update import one_update
-from tools.ship_policy import MAX_SIZE, command_of, ship
+from tools.ship_policy import MAX_SIZE, command_of, ship, ship_behind_forecast
 
 
 @pytest.fixture
@@ -95,3 +95,21 @@ def test_the_recorded_command_has_the_settings_of_the_run(
     for args in (Args.for_task(task), Args(task=task), shared, varied):
         assert cli.main(shlex.split(command_of(args.to_json()))[1:]) == 0
         assert received[-1].to_json() == args.to_json()
+
+
+def test_the_best_policy_becomes_the_robust_one_behind_a_forecast(folder: Path) -> None:
+    task = rsoccer.make_task("VSS-v0")
+    network = network_for(task)
+    network.metadata["layout"] = task.layout.text
+    network.save(folder / "VSS-v0.safetensors", half_precision=True)
+    path = ship_behind_forecast("VSS-v0", ["zero"], starts=10, threads=1)
+    assert path == folder / "VSS-v0.robust.safetensors"
+    robust, best = trained.load_best(task, "robust"), trained.load_best(task)
+    assert robust.needs_forecast
+    assert not best.needs_forecast
+    for name, array in best.arrays().items():
+        np.testing.assert_array_equal(robust.arrays()[name], array)
+    scores = trained.list_scores(path)
+    assert [score.sensing for score in scores] == ["", "rc2021, forecast=1"]
+    with pytest.raises(ValueError, match=r"name: expected one of \['VSS-v0'\], got 'SSLMatch-v0'"):
+        ship_behind_forecast("SSLMatch-v0")

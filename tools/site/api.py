@@ -133,6 +133,7 @@ GROUPS: Final = (
             "rsoccer.policies.network",
             "rsoccer.policies.heads",
             "rsoccer.policies.policy_file",
+            "rsoccer.policies.shield",
             "rsoccer.policies.libraries",
             "rsoccer.policies.torch_network",
             "rsoccer.policies.onnx_export",

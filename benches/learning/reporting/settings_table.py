@@ -12,7 +12,7 @@ FIELDS: Final = (
     "samples",
     *("rollout.worlds", "rollout.horizon", "rollout.action_repeat", "rollout.random_truncation"),
     *("network.hidden_sizes", "network.robot_units", "network.central_critic"),
-    *("network.action_std", "network.final_action_std"),
+    *("network.action_std", "network.final_action_std", "network.shield"),
     *("ppo.gamma", "ppo.final_gamma", "ppo.gae_lambda"),
     *("ppo.learning_rate", "ppo.learning_rate_schedule", "ppo.n_epochs", "ppo.n_minibatches"),
     "ppo.mirror_augmentation",

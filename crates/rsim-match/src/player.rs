@@ -115,18 +115,18 @@ impl Player {
             self.robots[robot].held = action;
         }
         let robot = &mut self.robots[robot];
+        robot.last.copy_from_slice(&robot.held);
+        if let (Some(shield), Some((index, row))) = (&self.shield, shielded) {
+            shield.apply(row, index, &mut robot.last);
+        }
         if !free {
-            robot.held.fill(0.0);
+            robot.last.fill(0.0);
         }
         if !robot.observations.is_empty() {
             robot.observations.rotate_right(1);
             robot.observations[0].copy_from_slice(observation);
             robot.actions.rotate_right(1);
-            robot.actions[0].copy_from_slice(&robot.held);
-        }
-        robot.last.copy_from_slice(&robot.held);
-        if let (true, Some(shield), Some((index, row))) = (free, &self.shield, shielded) {
-            shield.apply(row, index, &mut robot.last);
+            robot.actions[0].copy_from_slice(&robot.last);
         }
         &robot.last
     }

@@ -14,6 +14,13 @@ use crate::vector::Vector;
 /// Distance from its place within which a ball at rest stays, m.
 const SAME_PLACE: f32 = 0.01;
 
+/// Greatest distance of a valid place from the one that hands wanted, m: beside a ball or a goal.
+const SEARCHED: f32 = 0.02;
+
+fn rests(robot: &Robot) -> bool {
+    robot.velocity == Vector::default() && robot.angular_velocity == 0.0
+}
+
 /// Whether all robots are where the present command allows them to be, with the ball at a place.
 pub(crate) fn is_arranged(game: &Game, moment: &Moment, ball: Vector) -> bool {
     let positions = Positions::new(game, moment, ball);
@@ -93,8 +100,17 @@ impl Restart<'_> {
             robots.into_iter().partition(|robot| place_of(robot).is_some());
         for robot in &listed {
             let place = place_of(robot).map_or(robot.position, |(_, place)| *place);
-            let error = game.placements.within(moment.config.placement_error);
-            self.place(positions, robot, place + error);
+            let most = moment.config.placement_error;
+            let off = robot.position - place;
+            // A kick is arranged twice; a robot that hands have put there stays. Hands are never exact.
+            let is_there = off != Vector::default()
+                && most > 0.0
+                && off.x.abs().max(off.y.abs()) <= most + SEARCHED
+                && positions.allows(robot, robot.position)
+                && rests(robot);
+            let wanted =
+                if is_there { robot.position } else { place + game.placements.within(most) };
+            self.place(positions, robot, wanted);
         }
         self.place_near(positions, others);
     }
@@ -113,8 +129,7 @@ impl Restart<'_> {
     fn place(&mut self, positions: &Positions, robot: &Robot, wanted: Vector) {
         let position = positions.nearest(robot, wanted, &self.settled);
         self.settled.push(position);
-        let rests = robot.velocity == Vector::default() && robot.angular_velocity == 0.0;
-        if position != robot.position || !rests {
+        if position != robot.position || !rests(robot) {
             let placed = Placed { robot: robot.index, position, faces: Some(positions.ball()) };
             self.layout.put_robot(self.row, &placed);
             self.changed = true;

@@ -5,7 +5,7 @@
 | name | league | behavior |
 | --- | --- | --- |
 | `best` | any | the trained policy of the task, where the package has one |
-| `best:robust` | any | the one that has learned with late and noisy senses, on some tasks |
+| `best:robust` | any | the one for late and noisy senses, on some tasks |
 | `zero` | any | stands still |
 | `uniform` | any | independent uniform random actions |
 | `ou` | any | actions of an Ornstein-Uhlenbeck process |
@@ -85,7 +85,7 @@ def make_policy(policy: PolicyLike, task: Task | str) -> Policy:
             ONNX file; or "module:name" of a policy, its class, or a function of the task that makes
             one.
             "best" is the trained policy of the task, see `rsoccer.policies.trained`.
-            "best:robust" is the one that has learned with late and noisy senses. "scripted:0.5"
+            "best:robust" is the one for late and noisy senses. "scripted:0.5"
             sets a skill. "policy.safetensors:mean", "best:sample" and "best:robust:mean" choose
             how a network acts; the default is as in training.
         task: the task that is played, or its name.

@@ -37,18 +37,11 @@ class HeldActions(Policy):
 
     def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
         """Return actions (n, robots, action): new decisions, or held ones, behind the shield."""
-        actions = self._held(inputs, rng, memory)
-        if self.shield is not None and inputs.match is not None:
-            self.shield.apply(inputs.match, actions)
-        return actions
-
-    def _held(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
-        """New decisions, or held ones, in a new array."""
         observations = inputs.observations
         if observations is None:
             raise ValueError(f"a {type(self).__name__} needs observations (n, robots, o), got none")
         if not self._has_memory:
-            return self.choose(observations, rng)
+            return self._shielded(inputs, self.choose(observations, rng))
         held, age = memory["held"], memory["age"]
         due = age % self.action_repeat == 0
         if self.stack is not None:
@@ -57,10 +50,17 @@ class HeldActions(Policy):
             streams = rng[due]
             held[due] = self.choose(self._stacked(memory, due, observations[due]), streams)
             rng.put(due, streams)
-        if self.stack is not None:
-            self.stack.push(memory, slice(None), observations, held)
+        actions = self._shielded(inputs, held.copy())
+        if self.stack is not None:  # of what robots did, as in training
+            self.stack.push(memory, slice(None), observations, actions)
         age += 1
-        return held.copy()
+        return actions
+
+    def _shielded(self, inputs: PolicyInput, actions: Floats) -> Floats:
+        """The actions, changed in place by the shield."""
+        if self.shield is not None and inputs.match is not None:
+            self.shield.apply(inputs.match, actions)
+        return actions
 
     @property
     def _has_memory(self) -> bool:

@@ -39,8 +39,9 @@ def fitted(policy: Network, task: Task) -> Network:
         The policy for the task, in the same mode, with the same history and shield.
 
     Raises:
-        ValueError: a policy of the other league, with other observations than those of its task, or
-            with an action that is longer than the task's.
+        ValueError: a policy of the other league, with other observations than those of its task,
+            with another head than a plain Gaussian, or with an action that is longer than the
+            task's.
     """
     source = task_with_options(policy.task_name, policy.task_options)
     old, new = source.layout, task.layout
@@ -48,6 +49,11 @@ def fitted(policy: Network, task: Task) -> Network:
         raise ValueError(
             "expected a policy whose task has the observations of its training, got one of "
             f"{policy.task_name!r} with others"
+        )
+    if policy.head.kind != "gaussian" or policy.head.deviation is not None:
+        raise ValueError(
+            "expected a policy with a plain Gaussian, whose weights another task can take along, "
+            f"got the head {policy.head.kind!r}"
         )
     if source.config.command_columns != task.config.command_columns:
         raise ValueError(

@@ -2,7 +2,7 @@
 
 A policy that has learned without a referee may play well and yet lose what it wins to fouls. A
 shield leaves its actions alone but for those: "vsss" keeps robots of VSSS out of goal areas in
-which the referee allows no more of their team (`rsoccer._core.AreaShield`), and has them stand
+which the league allows no more of their team (`rsoccer._core.AreaShield`), and has them stand
 while they may not touch the ball. It acts in matches under a referee alone.
 """
 
@@ -37,8 +37,7 @@ class Shield:
         """
         if name not in SHIELDS:
             raise ValueError(f"shield: expected one of {SHIELDS}, got {name!r}")
-        self._config: SimConfig | None = None
-        self._core: AreaShield | None = None
+        self._built: tuple[SimConfig, AreaShield] | None = None
 
     def apply(self, match: MatchState, actions: Floats) -> None:
         """Change actions where the referee would be against them.
@@ -52,10 +51,11 @@ class Shield:
         """
         if "referee" not in match.game:
             return
-        if self._core is None or self._config is not match.config:
-            self._config, self._core = match.config, AreaShield(match.config)
+        built = self._built
+        if built is None or built[0] is not match.config:
+            built = self._built = match.config, AreaShield(match.config)
         changed = np.ascontiguousarray(actions, np.float32)
-        self._core.apply(match.rows, match.robots.tolist(), changed, match.threads)
+        built[1].apply(match.rows, match.robots.tolist(), changed, match.threads)
         changed[~match.game.may_touch[:, match.robots]] = 0.0
         if changed is not actions:
             actions[...] = changed

@@ -20,7 +20,8 @@ class VssMatch(Match, VssBase):
     """Match of two VSSS teams under the league's referee, in which all robots learn.
 
     Actions are those of `VssBase`; observations, rewards, end and metrics those of `Match`. On a
-    field with two areas, as "vss_5v5", the rules are those of five a side.
+    field with two areas, as "vss_5v5", the rules are those of five a side. At restarts robots are
+    put by hand, up to 1 cm from their places (`placement_error` of the rules).
 
     Source: the league's referee (VSSSLeague/VSSReferee) for rules and positions.
     """

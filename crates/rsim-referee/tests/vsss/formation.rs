@@ -166,6 +166,13 @@ fn hands_put_robots_near_their_places_and_each_time_elsewhere() {
                 assert_valid(&scene);
                 let first: Vec<Robot> = scene.robots();
                 arrange(&mut scene, command, ball);
+                assert_eq!(first, scene.robots(), "they stay where they are");
+                for team in Team::BOTH {
+                    for nth in 0..size.robots() {
+                        scene.robot(team, nth, [0.1 * team.own_side(), 0.1 * nth as f32]);
+                    }
+                }
+                arrange(&mut scene, command, ball);
                 (first, scene.robots())
             };
             let (first, second) = placed(1);

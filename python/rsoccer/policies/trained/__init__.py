@@ -1,8 +1,8 @@
 """Trained policies in the package: `best` plays the one of the task.
 
 The files of this folder are policy files (`rsoccer.policies.policy_file`), one for each task that
-has one, `<task>.safetensors`. Some tasks have a second one, `<task>.robust.safetensors`, which has
-learned with late and noisy senses and varied numbers: `best:robust` plays it. Their metadata say
+has one, `<task>.safetensors`. Some tasks have a second one, `<task>.robust.safetensors`, for late
+and noisy senses and varied numbers: `best:robust` plays it. Their metadata say
 how they were made and what they score. `tools.ship_policy` writes them.
 """
 
@@ -20,7 +20,7 @@ from rsoccer.task import Task
 BEST: Final = "best"
 """Name of the trained policy of the task that is played."""
 ROBUST: Final = "robust"
-"""Word after the colon for the policy that has learned with late and noisy senses."""
+"""Word after the colon for the policy for late and noisy senses."""
 TEAM_TASK: Final = "VSSMulti-v0"
 """Task whose policy also plays tasks without a file of their own that have its observations.
 
@@ -50,8 +50,8 @@ def list_trained(variant: str | None = None) -> dict[str, Path]:
     """Return the files by the task that they were made for, in alphabetical order.
 
     Args:
-        variant: "robust" for those that have learned with late and noisy senses; None for those
-            that know the true state.
+        variant: "robust" for those for late and noisy senses; None for those that know the true
+            state.
     """
     ending = _ending(variant)
     found = {path.name.removesuffix(ending): path for path in sorted(FOLDER.glob(f"*{ending}"))}
@@ -63,9 +63,9 @@ def load_best(task: Task, detail: str | None = None) -> Network:
 
     Args:
         task: the task that is played.
-        detail: "robust" for the policy that has learned with late and noisy senses, "sample" or
-            "mean" for a mode, or both, as in "robust:mean"; None is the policy that knows the true
-            state, as in training.
+        detail: "robust" for the policy for late and noisy senses, "sample" or "mean" for a mode, or
+            both, as in "robust:mean"; None is the policy that knows the true state, as in
+            training.
 
     Returns:
         The network of the task's own file, of that of its skills in `SKILLS`, or of `TEAM_TASK`

@@ -114,6 +114,7 @@ def run_distillation(args: DistillArgs) -> Path:
         task_options=teacher.task_options,
         sensing=args.sensing,
         randomization=_randomization(args, task),
+        shield=teacher.metadata.get("shield"),
     )
     network.save(path)
     return path

@@ -90,7 +90,8 @@ def _shielded(matches: Matches, actions: Floats, shield: Shield | None) -> Float
     """The learners' actions of a control step, behind the shield."""
     if shield is None:
         return actions
-    play, config, shielded = matches.play, matches.task.config, actions.copy()
+    play, config = matches.play, matches.task.config
+    shielded = np.clip(actions, -1.0, 1.0)
     learners = matches.assignment.learners
     for team in (learners < config.n_blue, learners >= config.n_blue):  # each has its own senses
         if team.any():

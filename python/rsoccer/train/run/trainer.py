@@ -11,6 +11,7 @@ from collections.abc import Callable
 import numpy as np
 import torch
 
+from rsoccer._core import AreaShield
 from rsoccer.history import ObservationStack
 from rsoccer.matches import Matches
 from rsoccer.policies import training_conditions
@@ -91,6 +92,11 @@ class Trainer:
             history=args.history,
         )
         _check_batch(args, len(self.curriculum.learners))
+        if args.network.shield is not None:
+            try:
+                AreaShield(self.task.config)
+            except ValueError as error:
+                raise ValueError(f"network.shield: {error}") from error
         self.pool, self.is_solo = self.curriculum.pool, self.curriculum.starts_solo
         create = self.curriculum.solo if self.is_solo else self.curriculum.team
         matches = create(first_seed)
