@@ -73,8 +73,7 @@ impl AreaShield {
         }
         let field = &config.field;
         let has_two = field.inner_area_depth > 0.0;
-        let preset = if has_two { "vsss_5v5" } else { "vsss_3v3" };
-        let rules = RefereeConfig::preset(preset).expect("a preset's name");
+        let rules = rules_of(has_two);
         let area = |depth: f32, width: f32, too_many: [f32; 2]| Area {
             front: field.half_length() - depth,
             half_width: width / 2.0,
@@ -107,38 +106,28 @@ impl AreaShield {
     /// area. `row` is the state that the robot knows.
     pub fn apply(&self, row: &[f32], robot: usize, action: &mut [f32]) {
         let team = if robot < self.n_blue { Team::Blue } else { Team::Yellow };
-        let ball = Vector::new(row[0], row[1]);
         for area in &self.areas {
-            for (of_team, defender) in [team.opponent(), team].into_iter().enumerate() {
+            for (allowed, defender) in area.allowed.into_iter().zip([team.opponent(), team]) {
                 let side = defender.own_side();
-                if side * ball.x > area.front - NEAR
-                    && self.rank(row, robot, team, *area, side, ball) >= area.allowed[of_team]
+                if side * row[0] > area.front - NEAR
+                    && self.rank(row, robot, team, *area, defender) >= allowed
                 {
-                    self.keep_out(
-                        &robot_of(row, robot),
-                        *area,
-                        side,
-                        self.top_speeds[robot],
-                        action,
-                    );
+                    let top_speed = self.top_speeds[robot];
+                    keep_out(&robot_of(row, robot), *area, side, top_speed, action);
                 }
             }
         }
     }
 
-    /// Number of teammates that rather than the robot may be in an area: of attackers those nearer to the ball, of
-    /// defenders those nearer to the keeper's place.
-    fn rank(
-        &self,
-        row: &[f32],
-        robot: usize,
-        team: Team,
-        area: Area,
-        side: f32,
-        ball: Vector,
-    ) -> usize {
-        let keeper = Vector::new(side * (self.half_length - KEEPER_DISTANCE), 0.0);
-        let place = if side == team.own_side() { keeper } else { ball };
+    /// Number of teammates that rather than the robot may be in the area of a team: of attackers those nearer to
+    /// the ball, of defenders those nearer to the keeper's place.
+    fn rank(&self, row: &[f32], robot: usize, team: Team, area: Area, defender: Team) -> usize {
+        let side = defender.own_side();
+        let place = if defender == team {
+            Vector::new(side * (self.half_length - KEEPER_DISTANCE), 0.0)
+        } else {
+            Vector::new(row[0], row[1])
+        };
         let claim = |index: usize| {
             let position = robot_of(row, index).position;
             let advantage = if area.contains(position, side, 0.0) { INSIDE_ADVANTAGE } else { 0.0 };
@@ -151,35 +140,31 @@ impl AreaShield {
         };
         members
             .filter(|index| *index != robot && !is_absent(columns(row, *index)))
-            .filter(|index| {
-                let other = claim(*index);
-                other < own || other == own && *index < robot
-            })
+            .filter(|index| claim(*index).total_cmp(&own).then(index.cmp(&robot)).is_lt())
             .count()
     }
+}
 
-    /// Stops a robot that is about to enter an area, and has one that is inside leave.
-    fn keep_out(&self, robot: &Robot, area: Area, side: f32, top_speed: f32, action: &mut [f32]) {
-        let [left, right] = action else { return };
-        if area.contains(robot.position, side, MARGIN) {
-            let outside = area.way_out(robot.position, side);
-            let along = robot.heading.dot(outside);
-            let aside = robot.heading.x * outside.y - robot.heading.y * outside.x;
-            let way = if along < 0.0 { -1.0 } else { 1.0 };
-            let turn = (TURN_GAIN * aside * way).clamp(-MAX_TURN, MAX_TURN);
-            let forward = LEAVING * along;
-            (*left, *right) =
-                ((forward - turn).clamp(-1.0, 1.0), (forward + turn).clamp(-1.0, 1.0));
-            return;
-        }
-        let commanded = robot.heading * ((*left + *right) / 2.0 * top_speed);
-        let enters = [commanded, robot.velocity]
-            .into_iter()
-            .any(|velocity| area.contains(robot.position + velocity * HORIZON, side, MARGIN));
-        if enters {
-            let turn = TURNING * (*right - *left) / 2.0;
-            (*left, *right) = (-turn, turn);
-        }
+/// Stops a robot that is about to enter an area, and has one that is inside leave.
+fn keep_out(robot: &Robot, area: Area, side: f32, top_speed: f32, action: &mut [f32]) {
+    let [left, right] = action else { return };
+    if area.contains(robot.position, side, MARGIN) {
+        let outside = area.way_out(robot.position, side);
+        let along = robot.heading.dot(outside);
+        let aside = robot.heading.x * outside.y - robot.heading.y * outside.x;
+        let way = if along < 0.0 { -1.0 } else { 1.0 };
+        let turn = (TURN_GAIN * aside * way).clamp(-MAX_TURN, MAX_TURN);
+        let forward = LEAVING * along;
+        (*left, *right) = ((forward - turn).clamp(-1.0, 1.0), (forward + turn).clamp(-1.0, 1.0));
+        return;
+    }
+    let commanded = robot.heading * (f32::midpoint(*left, *right) * top_speed);
+    let enters = [commanded, robot.velocity]
+        .into_iter()
+        .any(|velocity| area.contains(robot.position + velocity * HORIZON, side, MARGIN));
+    if enters {
+        let turn = TURNING * (*right - *left) / 2.0;
+        (*left, *right) = (-turn, turn);
     }
 }
 
@@ -197,6 +182,12 @@ impl Area {
             Vector::new(0.0, 1.0_f32.copysign(place.y))
         }
     }
+}
+
+/// Rules of the league on a field with two areas, or with one.
+fn rules_of(has_two: bool) -> RefereeConfig {
+    let preset = if has_two { "vsss_5v5" } else { "vsss_3v3" };
+    RefereeConfig::preset(preset).expect("a preset's name")
 }
 
 /// Robots that are allowed where some number of them is too many; 0 is any number.
@@ -219,6 +210,8 @@ fn robot_of(row: &[f32], robot: usize) -> Robot {
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp)] // what the shield leaves as it is has the same bits
+#[allow(clippy::cast_precision_loss)] // a few robots
 mod tests {
     use super::*;
 

@@ -50,8 +50,8 @@ mod tests {
 
     #[test]
     fn components_are_uniform_and_independent() {
-        let (mut draws, count) = (Draws::new(7), 20_000);
-        let drawn: Vec<Vector> = (0..count).map(|_| draws.within(2.0)).collect();
+        let (mut stream, count) = (Draws::new(7), 20_000);
+        let drawn: Vec<Vector> = (0..count).map(|_| stream.within(2.0)).collect();
         let mean = |value: fn(&Vector) -> f32| {
             drawn.iter().map(|drawn| f64::from(value(drawn))).sum::<f64>() / f64::from(count)
         };
