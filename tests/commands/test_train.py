@@ -169,7 +169,7 @@ def test_resuming_takes_the_settings_of_the_run(
     assert before.task == "VSS-v0"
     assert resumed == dataclasses.replace(before, resume=True, overwrite=False, run=RunSettings())
     assert longer == dataclasses.replace(resumed, samples=7)
-    assert (new.task, new.network) == (Args.task, NetworkSettings())
+    assert (new.task, new.network) == (Args.task, Args.for_task(Args.task).network)
 
 
 @pytest.mark.parametrize(

@@ -101,7 +101,7 @@ def test_the_ball_is_reached_in_a_simulator_that_waits() -> None:
 
 def test_a_goal_is_scored_in_vsss() -> None:
     link = ServerLink(league="vsss", referee="off")
-    found = played(matches_of("VSSSelfPlay-v0", link, "firasim", drives=(0, 1)), 150)
+    found = played(matches_of("VSSSelfPlay-v0", link, "firasim", drives=(0, 1)), 600)
     assert found
     assert found[0]["goal_score"] == 1.0
 

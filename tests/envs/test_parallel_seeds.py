@@ -15,7 +15,7 @@ from rsoccer.envs.parallel import SoccerParallelEnv, parallel_env
 from tests.helpers import comparable
 from tests.parallel_matches import SELF_PLAY, TASKS, play_episode, random_actions, shot_at
 
-FIXED_STARTS = {"SSLDribbling-v0", "SSLMatch-v0", "VSSMatch-v0"}
+FIXED_STARTS = {"SSLDribbling-v0", "SSLMatch-v0"}
 """Tasks that begin alike for some seeds: matches do for those with the same first kick-off."""
 
 
