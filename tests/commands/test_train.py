@@ -9,7 +9,7 @@ import pytest
 
 from rsoccer import cli
 from rsoccer.commands import train as train_command
-from rsoccer.train import Args, NetworkSettings, PpoSettings, RunSettings, task_settings
+from rsoccer.train import Args, PpoSettings, RunSettings, task_settings
 
 
 def test_train_passes_its_options_on(
