@@ -83,6 +83,22 @@ class ObservationStack:
         """
         return np.concatenate([np.tile(observation, self.history), np.tile(action, self._past)])
 
+    def columns(self, history: int, observation: Array, action: Array) -> Array:
+        """Return the columns of some numbers of the newest observations and actions.
+
+        Args:
+            history: number of observations, at most that of the stack, and of actions plus one.
+            observation: columns of a plain observation.
+            action: columns of an action.
+
+        Returns:
+            Columns of a stacked observation: those of each observation, then of each past action.
+        """
+        first = self.history * self.observation_size
+        observed = [observation + nth * self.observation_size for nth in range(history)]
+        acted = [first + nth * self.action_size + action for nth in range(history - 1)]
+        return np.concatenate([*observed, *acted])
+
     def reflection(self, task: Task) -> Reflection | None:
         """Return the reflection of a stacked observation, (size,).
 

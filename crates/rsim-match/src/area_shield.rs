@@ -4,12 +4,13 @@
 //! does not count then. A shield changes such actions alone (Alshiekh et al., "Safe Reinforcement Learning via
 //! Shielding", 2018).
 
-use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS, is_absent};
 use rsim_core::{Drive, SimConfig};
+use rsim_referee::Vector;
 use rsim_referee::config::RefereeConfig;
-use rsim_referee::{Team, Vector};
+use rsim_referee::sight::{Layout, Robot, Sight};
 
 use crate::error::MatchError;
+use crate::knowledge::layout;
 
 /// Distance that robots keep from an area, m.
 const MARGIN: f32 = 0.05;
@@ -33,8 +34,7 @@ const MAX_TURN: f32 = 0.6;
 pub struct AreaShield {
     areas: Vec<Area>,
     half_length: f32,
-    n_blue: usize,
-    n_robots: usize,
+    layout: Layout,
     /// Greatest speed of each robot, m/s.
     top_speeds: Vec<f32>,
 }
@@ -49,18 +49,11 @@ struct Area {
     allowed: [usize; 2],
 }
 
-/// A robot as the shield sees it.
-struct Robot {
-    position: Vector,
-    heading: Vector,
-    velocity: Vector,
-}
-
 impl AreaShield {
     /// The shield for the robots and the field of a configuration.
     ///
     /// # Errors
-    /// A robot without a differential drive.
+    /// A robot without a differential drive, or more robots than a referee can see.
     pub fn new(config: &SimConfig) -> Result<Self, MatchError> {
         let is_differential =
             |robot: &&rsim_core::RobotModel| matches!(robot.drive, Drive::Differential(_));
@@ -91,57 +84,38 @@ impl AreaShield {
         Ok(Self {
             areas,
             half_length: field.half_length(),
-            n_blue: config.blue.len(),
-            n_robots: config.n_robots(),
+            layout: layout(config)?,
             top_speeds: config.robots().map(rsim_core::RobotModel::top_speed).collect(),
         })
     }
 
     /// Number of robots of both teams.
     pub fn n_robots(&self) -> usize {
-        self.n_robots
+        self.layout.robots()
     }
 
     /// Changes the action of a robot, the speeds of its wheels from -1 to 1, where it would be one too many in an
     /// area. `row` is the state that the robot knows.
     pub fn apply(&self, row: &[f32], robot: usize, action: &mut [f32]) {
-        let team = if robot < self.n_blue { Team::Blue } else { Team::Yellow };
+        let Ok(sight) = self.layout.sight(row) else { return };
+        let Some(robot) = sight.robot(robot) else { return };
+        let ball = sight.ball().position;
         for area in &self.areas {
-            for (allowed, defender) in area.allowed.into_iter().zip([team.opponent(), team]) {
+            let defenders = [robot.team.opponent(), robot.team];
+            for (allowed, defender) in area.allowed.into_iter().zip(defenders) {
                 let side = defender.own_side();
-                if side * row[0] > area.front - NEAR
-                    && self.rank(row, robot, team, *area, defender) >= allowed
+                let place = if defender == robot.team {
+                    Vector::new(side * (self.half_length - KEEPER_DISTANCE), 0.0)
+                } else {
+                    ball
+                };
+                if side * ball.x > area.front - NEAR
+                    && area.rank(&sight, &robot, side, place) >= allowed
                 {
-                    let top_speed = self.top_speeds[robot];
-                    keep_out(&robot_of(row, robot), *area, side, top_speed, action);
+                    keep_out(&robot, *area, side, self.top_speeds[robot.index], action);
                 }
             }
         }
-    }
-
-    /// Number of teammates that rather than the robot may be in the area of a team: of attackers those nearer to
-    /// the ball, of defenders those nearer to the keeper's place.
-    fn rank(&self, row: &[f32], robot: usize, team: Team, area: Area, defender: Team) -> usize {
-        let side = defender.own_side();
-        let place = if defender == team {
-            Vector::new(side * (self.half_length - KEEPER_DISTANCE), 0.0)
-        } else {
-            Vector::new(row[0], row[1])
-        };
-        let claim = |index: usize| {
-            let position = robot_of(row, index).position;
-            let advantage = if area.contains(position, side, 0.0) { INSIDE_ADVANTAGE } else { 0.0 };
-            position.distance(place) - advantage
-        };
-        let own = claim(robot);
-        let members = match team {
-            Team::Blue => 0..self.n_blue,
-            Team::Yellow => self.n_blue..self.n_robots,
-        };
-        members
-            .filter(|index| *index != robot && !is_absent(columns(row, *index)))
-            .filter(|index| claim(*index).total_cmp(&own).then(index.cmp(&robot)).is_lt())
-            .count()
     }
 }
 
@@ -169,6 +143,21 @@ fn keep_out(robot: &Robot, area: Area, side: f32, top_speed: f32, action: &mut [
 }
 
 impl Area {
+    /// Number of teammates that rather than the robot may be in the area at x of `side`: those nearer to a place,
+    /// which is the ball for attackers and the keeper's place for defenders.
+    fn rank(&self, sight: &Sight, robot: &Robot, side: f32, place: Vector) -> usize {
+        let claim = |robot: &Robot| {
+            let is_inside = self.contains(robot.position, side, 0.0);
+            robot.position.distance(place) - if is_inside { INSIDE_ADVANTAGE } else { 0.0 }
+        };
+        let own = claim(robot);
+        let teammates = sight.team(robot.team).filter(|other| other.index != robot.index);
+        let comes_first = |other: &Robot| {
+            claim(other).total_cmp(&own).then(other.index.cmp(&robot.index)).is_lt()
+        };
+        teammates.filter(comes_first).count()
+    }
+
     /// Whether a place is in the area at x of `side`, or nearer to it than a margin.
     fn contains(&self, place: Vector, side: f32, margin: f32) -> bool {
         side * place.x > self.front - margin && place.y.abs() < self.half_width + margin
@@ -196,23 +185,12 @@ fn allowed(too_many: f32) -> usize {
     if too_many > 0.0 { too_many as usize - 1 } else { usize::MAX }
 }
 
-fn columns(row: &[f32], robot: usize) -> &[f32] {
-    &row[BALL_COLUMNS.len() + robot * ROBOT_COLUMNS.len()..][..ROBOT_COLUMNS.len()]
-}
-
-fn robot_of(row: &[f32], robot: usize) -> Robot {
-    let columns = columns(row, robot);
-    Robot {
-        position: Vector::new(columns[0], columns[1]),
-        heading: Vector::new(columns[2], columns[3]),
-        velocity: Vector::new(columns[4], columns[5]),
-    }
-}
-
 #[cfg(test)]
 #[allow(clippy::float_cmp)] // what the shield leaves as it is has the same bits
 #[allow(clippy::cast_precision_loss)] // a few robots
 mod tests {
+    use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
+
     use super::*;
 
     const INSIDE: f32 = 0.68;

@@ -68,8 +68,8 @@ def fitted(policy: Network, task: Task) -> Network:
     wider = ObservationStack(policy.history, new.size, task.action_size)
     from_columns, to_columns = _common_columns(old, new)
     actions = np.arange(policy.action_size)
-    from_columns = _stacked_columns(stack, from_columns, actions)
-    to_columns = _stacked_columns(wider, to_columns, actions)
+    from_columns = stack.columns(policy.history, from_columns, actions)
+    to_columns = wider.columns(policy.history, to_columns, actions)
     (weight, bias), *others = policy.layers
     size = wider.size
     first = np.zeros((len(weight), size), np.float32)
@@ -107,14 +107,6 @@ def _common_columns(old: ObservationLayout, new: ObservationLayout) -> tuple[Arr
         for before, after in _common_rows(name, old, new)
     ]
     return np.concatenate([a for a, _ in pairs]), np.concatenate([b for _, b in pairs])
-
-
-def _stacked_columns(stack: ObservationStack, columns: Array, actions: Array) -> Array:
-    """Columns of a stacked observation for some of a plain one, and of each past action."""
-    first = stack.history * stack.observation_size
-    observed = [columns + nth * stack.observation_size for nth in range(stack.history)]
-    acted = [first + nth * stack.action_size + actions for nth in range(stack.history - 1)]
-    return np.concatenate([*observed, *acted])
 
 
 def _common_rows(

@@ -176,7 +176,5 @@ def widened_normalization(policy: Network, stack: ObservationStack) -> tuple[Flo
 
 def _columns(policy: Network, stack: ObservationStack) -> Array:
     """Columns of the stacked observation that a policy of an equal or a shorter history reads."""
-    observations = policy.history * stack.observation_size
-    actions = (policy.history - 1) * stack.action_size
-    first = stack.history * stack.observation_size
-    return np.concatenate([np.arange(observations), first + np.arange(actions)])
+    observation, action = np.arange(stack.observation_size), np.arange(stack.action_size)
+    return stack.columns(policy.history, observation, action)
