@@ -52,6 +52,30 @@ def test_a_ghost_far_from_the_ball_is_ignored() -> None:
     np.testing.assert_allclose(read(tracker).ball.position[0], [0.1, 0.2], atol=1e-4)
 
 
+def test_a_ball_that_no_camera_sees_moves_with_the_robot_whose_beam_it_cuts() -> None:
+    mouth = CONFIG.robots[0].front_distance + CONFIG.ball.radius
+    last = {}
+    for cut in (None, (), (1,), (0,)):
+        tracker = VisionTracker(CONFIG)
+        for frame in range(90):
+            x = max(0.0, frame / 60 - 0.25)
+            ball = NO_BALL if frame > 15 else np.array([[mouth + 0.005, 0.5]], np.float32)
+            tracker.take(frame / 60, ball, seen(0, x), None if cut is None else list(cut))
+        found = read(tracker)
+        last[cut] = float(found.ball.position[0, 0] - found.robots.position[0, 0, 0])
+    assert last.pop((0,)) == pytest.approx(mouth, abs=0.01)
+    assert max(last.values()) < -1.0, "without a report it stays where it was seen"
+
+
+def test_reports_of_robots_that_do_not_exist_are_refused() -> None:
+    tracker = VisionTracker(CONFIG)
+    with pytest.raises(ValueError, match="cut must have indices from 0 to 1, got 2"):
+        tracker.take(0.0, NO_BALL, NOBODY, [2])
+    with pytest.raises(OverflowError):
+        tracker.take(0.0, NO_BALL, NOBODY, [-1])
+    assert tracker.time is None
+
+
 def test_a_frame_of_the_past_is_refused() -> None:
     tracker = VisionTracker(CONFIG)
     assert tracker.take(1.0, NO_BALL, seen(0, 0.3))

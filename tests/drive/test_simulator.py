@@ -20,11 +20,12 @@ from rsoccer.drive import (
     forecasting,
 )
 from rsoccer.drive.connection import Connection
+from rsoccer.drive.link import Received
 from rsoccer.drive.simulator import SETTLED
 from rsoccer.evaluate import evaluate
 from rsoccer.frame import Frame
 from rsoccer.lineup import lineup
-from rsoccer.protocols.schemas import simulation_pb2
+from rsoccer.protocols.schemas import simulation_pb2, tracker_pb2, vision_pb2
 from rsoccer.registry import make_task
 from rsoccer.simulator_interface import Stepper
 from rsoccer.sources import NETWORK_SIMULATORS
@@ -165,6 +166,57 @@ def test_contact_that_a_robot_reports_adds_to_its_break_beam() -> None:
             stepper.place(np.ones(1, np.bool_), rows.rows, out)
             found = bool(Frame(out, 1, 0).robots.infrared[0, 0])
             assert found is (reported or seen), (reported, distance)
+
+
+class BlindLink(ServerLink):
+    """A link to a server whose cameras never see the ball."""
+
+    def tick(self) -> None:
+        before = len(self._waiting)
+        super().tick()
+        for index, received in enumerate(self._waiting[before:], before):
+            if received.port == "vision":
+                packet = vision_pb2.Packet.FromString(received.data)
+                del packet.detection.balls[:]
+                self._waiting[index] = Received("vision", packet.SerializeToString())
+            elif received.port == "tracker":
+                tracked = tracker_pb2.Packet.FromString(received.data)
+                del tracked.tracked_frame.balls[:]
+                self._waiting[index] = Received("tracker", tracked.SerializeToString())
+
+
+@pytest.mark.parametrize("source", ["vision", "tracker"])
+def test_a_ball_that_a_robot_hides_is_where_it_was_put(source: str) -> None:
+    config = SimConfig("ssl_b", 1, 0)
+    link = BlindLink(referee="off")
+    connection = connected(config, link, "ssl-simulation", patience=3.0, source=source)
+    stepper = NetworkSimulator(connection)
+    wanted = Frame.empty(1, 1, 0)
+    model = config.robots[0]
+    wanted.robots.heading[0, 0] = (1.0, 0.0)
+    wanted.ball.position[0] = (model.front_distance + config.ball.radius + 0.001, 0.0)
+    out = wanted.rows.copy()
+    stepper.place(np.ones(1, np.bool_), wanted.rows, out)
+    found = Frame(out, 1, 0)
+    np.testing.assert_allclose(found.ball.position[0], wanted.ball.position[0], atol=0.01)
+    commands = np.zeros((1, 1, len(config.command_columns)), np.float32)
+    commands[0, 0, [0, -1]] = 0.4, 1.0  # forward, with the dribbler
+    for _ in range(60):
+        stepper.step(commands, out)
+    assert link.frame.ball.position[0, 0] > 0.4
+    if source == "vision":  # a tracker on the network follows a hidden ball itself
+        np.testing.assert_allclose(found.ball.position, link.frame.ball.position, atol=0.03)
+
+
+def test_a_ball_away_from_robots_has_to_be_seen() -> None:
+    config = SimConfig("ssl_b", 1, 0)
+    connection = connected(config, BlindLink(referee="off"), "ssl-simulation", patience=3.0)
+    wanted = Frame.empty(1, 1, 0)
+    wanted.ball.position[0] = (1.0, 0.5)
+    with pytest.raises(ConnectionError, match="without the ball"):
+        NetworkSimulator(connection).place(
+            np.ones(1, np.bool_), wanted.rows, np.empty_like(wanted.rows)
+        )
 
 
 def test_untouched_robots_stay() -> None:

@@ -46,11 +46,13 @@ impl VisionTracker {
         (0..self.0.config().n_robots()).filter(|&robot| self.0.has_robot(robot)).collect()
     }
 
+    #[pyo3(signature = (time, balls, robots, cut = None))]
     fn take(
         &mut self,
         time: f64,
         balls: &Bound<'_, PyAny>,
         robots: &Bound<'_, PyAny>,
+        cut: Option<Vec<usize>>,
     ) -> PyResult<bool> {
         if !time.is_finite() {
             return Err(PyValueError::new_err(format!("time must be finite, got {time}")));
@@ -60,7 +62,8 @@ impl VisionTracker {
         let seen = numbers("robots", robots, ROBOT_COLUMNS)?;
         let robots = seen.chunks_exact(ROBOT_COLUMNS).map(|columns| self.robot(columns));
         let robots = robots.collect::<PyResult<Vec<SeenRobot>>>()?;
-        Ok(self.0.take(time, &balls, &robots))
+        let cut = cut.map(|cut| self.bits("cut", &cut)).transpose()?;
+        Ok(self.0.take(time, &balls, &robots, cut))
     }
 
     fn read(&self, out: &Bound<'_, PyAny>) -> PyResult<()> {
@@ -77,6 +80,18 @@ impl VisionTracker {
 }
 
 impl VisionTracker {
+    /// A bit for each robot of a list.
+    fn bits(&self, name: &str, robots: &[usize]) -> PyResult<u64> {
+        let count = self.0.config().n_robots();
+        if let Some(robot) = robots.iter().find(|&&robot| robot >= count) {
+            return Err(PyValueError::new_err(format!(
+                "{name} must have indices from 0 to {}, got {robot}",
+                count.saturating_sub(1)
+            )));
+        }
+        Ok(robots.iter().fold(0, |bits, robot| bits | 1 << robot))
+    }
+
     /// A detected robot.
     fn robot(&self, columns: &[f32]) -> PyResult<SeenRobot> {
         let [index, x, y, cos, sin] = columns else { unreachable!("the shape has been checked") };

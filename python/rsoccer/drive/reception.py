@@ -139,6 +139,8 @@ class Reception:
 
     def _take_frame(self, data: bytes) -> bool:
         self._turn()
+        known, cut = self.contact()
+        self.sight.cut = np.flatnonzero(cut).tolist() if known.any() else None
         is_newer = self.sight.take(data)
         if is_newer:  # frames whose clock stands still are as good as none
             self._seen_at = self._clock()

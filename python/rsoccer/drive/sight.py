@@ -43,6 +43,8 @@ class Sight(ABC):
             clients sends a frame again until it is answered.
         field_size: length and width of the field by the sender, m; None before they are known.
         has_ball: whether the ball was seen.
+        cut: indices in a state row of the robots whose break beam is cut, as they report; None
+            where they report nothing.
         counts: numbers of bodies and frames that are ignored, by the reason, such as
             "robots: far off the field".
     """
@@ -58,6 +60,7 @@ class Sight(ABC):
         self.frames = 0
         self.field_size: tuple[float, float] | None = None
         self.has_ball = False
+        self.cut: list[int] | None = None
         self.counts: Counter[str] = Counter()
         self._stamp: float | None = None
         self._senders: set[int] = set()
@@ -91,6 +94,14 @@ class Sight(ABC):
 
         Args:
             layout: the match.
+        """
+
+    @abstractmethod
+    def suppose_ball(self, position: tuple[float, float]) -> None:
+        """Take the ball to lie at a place until it is seen.
+
+        Args:
+            position: the place in the package, m.
         """
 
     @property
@@ -189,7 +200,7 @@ class DetectionSight(Sight):
         self._count(FAR_ROBOTS, int((~near[1]).sum()))
         self._count(FAR_BALLS, int((~near[0]).sum()))
         balls, robots = balls[near[0]], robots[near[1]]
-        self._tracker.take(time, balls, robots)
+        self._tracker.take(time, balls, robots, self.cut)
         self.has_ball = self._tracker.has_ball
         groups = ((BLUE, detection.robots_blue), (YELLOW, detection.robots_yellow))
         self._note(
@@ -207,3 +218,9 @@ class DetectionSight(Sight):
         """Go on with other sides; see `Sight.turn`."""
         self.layout, self._tracker = layout, VisionTracker(layout.config)
         self.has_ball = False
+
+    def suppose_ball(self, position: tuple[float, float]) -> None:
+        """Take the ball to lie at a place until it is seen; see `Sight.suppose_ball`."""
+        nothing = np.empty((0, 5), np.float32)
+        self._tracker.take(self.clock.now, np.array([position], np.float32), nothing)
+        self.has_ball = self._tracker.has_ball

@@ -25,6 +25,8 @@ FRAMES_TO_ACT: Final = 4
 """Frames that may pass before one shows bodies where they were put: 60 ms of latency."""
 FRAMES_TO_SHOW: Final = 20
 """Frames after which bodies are put again: the message may be lost."""
+HIDDEN: Final = 0.05
+"""Gap between ball and robot up to which the robot may hide the ball from a camera, m."""
 SETTLED: Final = 0.1
 """Speed up to which a robot stands, m/s: about what a tracker makes of noise."""
 SETTLING: Final = 2.0
@@ -238,7 +240,7 @@ class NetworkSimulator(NetworkStepper, Placer):
         if not ball_only:
             self._settle()
         messages = connection.placement(wanted, ball_only=ball_only)
-        sight = connection.sight
+        sight, hidden = connection.sight, self._is_hidden(wanted)
         state = {"seen": -1}
 
         def is_placed() -> bool:
@@ -253,12 +255,25 @@ class NetworkSimulator(NetworkStepper, Placer):
             if passed <= FRAMES_TO_ACT:
                 return False
             sight.read(present.rows)
+            if hidden and not sight.has_ball:
+                present.ball.data[:] = wanted.ball.data
             return _is_there(present, wanted, ball_only=ball_only)
 
         connection.stand(is_placed, "bodies where they were put")
         connection.forget()
+        if hidden:
+            x, y = wanted.ball.position[0].tolist()
+            sight.suppose_ball((x, y))
         self._let_pass(2)
         return self.read(out)
+
+    def _is_hidden(self, wanted: Frame) -> bool:
+        """Whether the ball is put at a robot, where cameras may not see it."""
+        config, robots = self.connection.config, wanted.robots
+        radii = np.array([model.bounding_radius for model in config.robots])
+        away = np.linalg.norm(robots.position[0] - wanted.ball.position[0], axis=1)
+        near = away - radii - config.ball.radius <= HIDDEN
+        return bool((near & (robots.absent[0] == 0)).any())
 
     def _settle(self) -> None:
         """Let robots come to rest: FIRASim's keep their velocity where they are put."""

@@ -72,6 +72,11 @@ class StateSight(Sight):
         self.layout, self.has_ball = layout, False
         self._frame = self._nothing()
 
+    def suppose_ball(self, position: tuple[float, float]) -> None:
+        """Take the ball to lie at a place until it is seen; see `Sight.suppose_ball`."""
+        self._frame.ball.position[0] = position
+        self.has_ball = True
+
 
 class TrackerSight(StateSight):
     """Frames of one tracker: the one that is heard first, and another once it is silent."""

@@ -1,11 +1,13 @@
 //! The tracker on its own, for detections of cameras that watch other simulators and real robots.
 
+use crate::body_parameters::BodyParameters;
 use crate::error::ConfigError;
 use crate::geometry::motion::Motion;
 use crate::math::{Vec3, Vector};
 use crate::models::config::SimConfig;
 use crate::models::sensing::Sensing;
 use crate::senses::detections::{DetectedBall, DetectedRobot, Detections};
+use crate::senses::held::Beams;
 use crate::senses::row;
 use crate::senses::track::unit;
 use crate::senses::tracker::Tracker;
@@ -31,6 +33,7 @@ pub struct SeenRobot {
 #[derive(Debug, Clone)]
 pub struct VisionTracker {
     config: SimConfig,
+    parameters: BodyParameters,
     sensing: Sensing,
     tracker: Tracker,
     /// Time of the last frame, s; `None` before the first.
@@ -53,8 +56,10 @@ impl VisionTracker {
         let rate = if sensing.frame_rate > 0.0 { sensing.frame_rate } else { FRAME_RATE };
         let robots = config.n_robots();
         let tracker = Tracker::new(robots, &sensing, 1.0 / rate);
-        let (config, robots_seen) = (config.clone(), vec![f64::NEG_INFINITY; robots]);
-        Ok(Self { config, sensing, tracker, time: None, has_ball: false, robots_seen })
+        let (parameters, robots_seen) =
+            (BodyParameters::of(config), vec![f64::NEG_INFINITY; robots]);
+        let config = config.clone();
+        Ok(Self { config, parameters, sensing, tracker, time: None, has_ball: false, robots_seen })
     }
 
     /// Configuration of the match.
@@ -78,8 +83,16 @@ impl VisionTracker {
     }
 
     /// Takes in the detections of a camera: balls, of which one may be real, with the likeliest first, and
-    /// robots. Returns false, and changes nothing, if it is older than the last one.
-    pub fn take(&mut self, time: f64, balls: &[[f32; 2]], robots: &[SeenRobot]) -> bool {
+    /// robots. `cut` has a bit for each robot whose break beam is known to be cut, and is `None` where robots report
+    /// nothing: a ball that was seen before the mouth of such a robot moves with it, also where no camera sees it.
+    /// Returns false, and changes nothing, if it is older than the last one.
+    pub fn take(
+        &mut self,
+        time: f64,
+        balls: &[[f32; 2]],
+        robots: &[SeenRobot],
+        cut: Option<u64>,
+    ) -> bool {
         if self.time.is_some_and(|last| time < last) {
             return false;
         }
@@ -89,7 +102,9 @@ impl VisionTracker {
         if self.time.is_some() {
             let balls: &[[f32; 2]] = if self.has_ball { balls } else { &[] };
             let frame = detections(time, balls, &known);
-            self.tracker.take(&self.sensing, &frame, self.config.ball.radius, None);
+            let cut = cut.filter(|_| self.has_ball);
+            let beams = cut.map(|cut| Beams { cut, parameters: &self.parameters });
+            self.tracker.take(&self.sensing, &frame, self.config.ball.radius, beams);
         }
         // A body that has just come into sight rests until it is seen again.
         let first = balls.len().min(usize::from(!self.has_ball));
@@ -161,7 +176,7 @@ mod tests {
         let mut tracker = tracker();
         for frame in 0..60_u8 {
             let x = f32::from(frame) / 60.0;
-            assert!(tracker.take(f64::from(frame) * PERIOD, &[[x, 0.5 * x]], &[seen(-x)]));
+            assert!(tracker.take(f64::from(frame) * PERIOD, &[[x, 0.5 * x]], &[seen(-x)], None));
         }
         let row = row(&tracker);
         let near = |column: usize, expected: f32| (row[column] - expected).abs() < 0.02;
@@ -175,22 +190,44 @@ mod tests {
     fn nothing_is_known_before_it_is_seen_and_robots_out_of_sight_are_absent() {
         let mut tracker = tracker();
         assert!(tracker.time().is_none() && !tracker.has_ball() && !tracker.has_robot(0));
-        assert!(tracker.take(5.0, &[], &[seen(0.3)]));
+        assert!(tracker.take(5.0, &[], &[seen(0.3)], None));
         assert!(row(&tracker)[ROBOT + ABSENT_COLUMN] == 0.0);
-        assert!(tracker.take(5.6, &[[1.0, 2.0]], &[]));
+        assert!(tracker.take(5.6, &[[1.0, 2.0]], &[], None));
         let gone = row(&tracker);
         assert!(gone[ROBOT + ABSENT_COLUMN] > 0.0 && (gone[ROBOT] - 0.3).abs() < 1e-6);
-        assert!(tracker.take(5.7, &[], &[seen(-2.0)]));
+        assert!(tracker.take(5.7, &[], &[seen(-2.0)], None));
         let back = row(&tracker);
         assert!(back[ROBOT..ROBOT + 6] == [-2.0, 1.0, 1.0, 0.0, 0.0, 0.0], "{back:?}");
     }
 
     #[test]
+    fn a_ball_that_no_camera_sees_moves_with_the_robot_whose_beam_it_cuts() {
+        let last = |cut: Option<u64>| {
+            let mut tracker = tracker();
+            let mouth = tracker.config().robots().next().expect("a robot").front_distance()
+                + tracker.config().ball.radius;
+            for frame in 0..90_u8 {
+                let time = f64::from(frame) * PERIOD;
+                let x = (f32::from(frame) / 60.0 - 0.25).max(0.0);
+                let balls: &[[f32; 2]] = if frame < 15 { &[[mouth + 0.005, 1.0]] } else { &[] };
+                assert!(tracker.take(time, balls, &[seen(x)], cut));
+            }
+            let row = row(&tracker);
+            (row[0] - row[ROBOT] - mouth, row[3])
+        };
+        let (gap, velocity) = last(Some(0b1));
+        assert!(gap > -1e-3 && gap < 0.02 && (velocity - 1.0).abs() < 0.05, "{gap} {velocity}");
+        for reported in [None, Some(0), Some(0b10)] {
+            assert!(last(reported).0 < -1.0, "without a report it stays where it was seen");
+        }
+    }
+
+    #[test]
     fn a_frame_of_the_past_changes_nothing() {
         let mut tracker = tracker();
-        assert!(tracker.take(5.0, &[[1.0, 2.0]], &[seen(0.3)]));
+        assert!(tracker.take(5.0, &[[1.0, 2.0]], &[seen(0.3)], None));
         let before = row(&tracker);
-        assert!(!tracker.take(4.9, &[[2.0, 2.0]], &[seen(0.5)]));
+        assert!(!tracker.take(4.9, &[[2.0, 2.0]], &[seen(0.5)], None));
         assert!(row(&tracker) == before && tracker.time() == Some(5.0));
     }
 }
