@@ -46,12 +46,14 @@ class Place:
 
 _ER_FORCE: Final = {
     "name": "ssl_erforce",
+    "front_distance": 0.064,
     "max_acceleration": 5.8,
     "max_deceleration": 7.9,
     "max_angular_acceleration": 67.0,
     "max_angular_deceleration": 96.0,
 }
-"""Its robots, by `rsoccer identify` from a log of `benches.transfer_logs`."""
+"""Its robots, by `rsoccer identify` from a log of `benches.transfer_logs`; the ball touches their
+dribbler at .0855 m."""
 PLACES: Final[Mapping[str, Place]] = {
     "grsim": Place(
         "grSim",
@@ -150,6 +152,8 @@ TRIALS: Final = (
     Trial("SSLContestedPossession-v0", "best:robust"),
     Trial("SSLPassEndurance-v1", "best"),
     Trial("SSLPassEndurance-v1", "best", forecasts=True),
+    Trial("SSLPassEnduranceMulti-v1", "best", forecasts=True),
+    Trial("SSLPassEnduranceMulti-v1", "best:robust"),
 )
 """Tasks and policies to play, in this order."""
 

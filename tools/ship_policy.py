@@ -28,6 +28,7 @@ from rsoccer.evaluate import Evaluation, evaluate, table
 from rsoccer.evaluate.results import MIN_PER_SIDE
 from rsoccer.files import write_atomically
 from rsoccer.policies import trained, training_conditions
+from rsoccer.policies.evolved import Evolved
 from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import SUFFIX, Score, scores_text
 from rsoccer.sensing_text import describe
@@ -41,6 +42,8 @@ STARTS: Final = 500
 """Starts of an evaluation; a two-sided task plays each number of them for each team."""
 SEED: Final = 0
 """Seed of the starts, the same for every policy."""
+Shipped = Network | Evolved
+"""A policy of the package."""
 MAX_SIZE: Final = 144 * 1024
 """Greatest size of a file, bytes, so that the package stays small."""
 
@@ -95,19 +98,20 @@ def ship(
             registered.
     """
     checks.integer("starts", starts, MIN_PER_SIDE)
-    network = Network.load(run / f"policy{SUFFIX}")
-    task = rsoccer.make_task(network.task_name)
-    if task.name != network.task_name:
-        raise ValueError(f"run: expected a policy of {task.name}, got one of {network.task_name}")
-    if "layout" not in network.metadata:
-        raise ValueError(f"run: expected a policy with its layout in {run}, got none")
-    training = _training(run)
-    path = trained.FOLDER / trained.file_name(task.name, variant_of(network))
+    policy = trained.load_file(run / f"policy{SUFFIX}")
+    task = rsoccer.make_task(policy.task_name)
+    if task.name != policy.task_name:
+        raise ValueError(f"run: expected a policy of {task.name}, got one of {policy.task_name}")
+    if isinstance(policy, Network):  # tactics have their training from the start
+        if "layout" not in policy.metadata:
+            raise ValueError(f"run: expected a policy with its layout in {run}, got none")
+        policy.metadata["training"] = json.dumps(_training(run))
+    path = trained.FOLDER / trained.file_name(task.name, variant_of(policy))
     candidate = run / path.name
-    network.save(candidate, half_precision=True)  # scores are those of the rounded weights
-    scores = _scores(candidate, task, opponents, starts, threads, senses_of(network))
-    network.metadata |= {"scores": scores_text(scores), "training": json.dumps(training)}
-    network.save(candidate, half_precision=True)
+    _save(policy, candidate)  # scores are those of the rounded weights
+    scores = _scores(candidate, task, opponents, starts, threads, senses_of(policy))
+    policy.metadata["scores"] = scores_text(scores)
+    _save(policy, candidate)
     _put(candidate, path)
     return path
 
@@ -150,6 +154,14 @@ def ship_behind_forecast(
     return path
 
 
+def _save(policy: Shipped, path: Path) -> None:
+    """Write a policy, a network in half precision."""
+    if isinstance(policy, Network):
+        policy.save(path, half_precision=True)
+    else:
+        policy.save(path)
+
+
 def _put(candidate: Path, path: Path) -> None:
     """Put a file into the package, and print the scores of the one that it replaces."""
     if candidate.stat().st_size > MAX_SIZE:
@@ -165,22 +177,22 @@ def shipped() -> dict[str, Path]:
     return trained.list_trained() | {f"{n}:{trained.ROBUST}": path for n, path in robust.items()}
 
 
-def variant_of(network: Network) -> str | None:
-    """Return the variant of the package's policy that a network becomes; None for `best` itself.
+def variant_of(policy: Shipped) -> str | None:
+    """Return the variant of the package's policy that one becomes; None for `best` itself.
 
     Args:
-        network: the policy of a run.
+        policy: the policy of a run.
     """
-    return None if network.sensing is None else trained.ROBUST
+    return None if policy.sensing is None else trained.ROBUST
 
 
-def senses_of(network: Network) -> list[str]:
+def senses_of(policy: Shipped) -> list[str]:
     """Return the senses with which a policy is measured: none, and those of its training.
 
     Args:
-        network: the policy.
+        policy: the policy.
     """
-    return [""] if network.sensing is None else ["", describe(network.sensing)]
+    return [""] if policy.sensing is None else ["", describe(policy.sensing)]
 
 
 def measure_again(name: str, starts: int = STARTS, threads: int | None = None) -> None:
@@ -199,14 +211,14 @@ def measure_again(name: str, starts: int = STARTS, threads: int | None = None) -
     if path is None:
         raise ValueError(f"name: expected one of {list(shipped())}, got {name!r}")
     before = trained.list_scores(path)
-    network = Network.load(path)
+    policy = trained.load_file(path)
     # A policy that was measured on its own names "-" as its opponent.
     opponents = list(dict.fromkeys(s.opponent for s in before if s.opponent != "-"))
-    task = rsoccer.make_task(network.task_name)
-    scores = _scores(path, task, opponents, starts, threads, senses_of(network))
+    task = rsoccer.make_task(policy.task_name)
+    scores = _scores(path, task, opponents, starts, threads, senses_of(policy))
     print("before:", *before, "now:", *scores, sep="\n    ")
-    network.metadata |= {"scores": scores_text(scores)}
-    network.save(path, half_precision=True)
+    policy.metadata["scores"] = scores_text(scores)
+    _save(policy, path)
 
 
 def _scores(

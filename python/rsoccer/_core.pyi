@@ -33,6 +33,7 @@ __all__ = [
     "SENSING_NUMBERS",
     "STAGES",
     "STATISTICS_COLUMNS",
+    "TACTICS",
     "AreaShield",
     "BallModel",
     "EgoFeatures",
@@ -86,6 +87,10 @@ MAX_EVENTS: int
 
 GAME_COLUMNS: tuple[str, ...]
 """Names of the columns of a match's state under a referee. Times are in control steps."""
+
+TACTICS: tuple[tuple[str, float, float, float], ...]
+"""Numbers by which the scripted SSL side plays: name, default, least and greatest value of each.
+`crates/rsim-teams/src/tactics.rs` describes them."""
 
 STATISTICS_COLUMNS: tuple[str, ...]
 """Names of the columns of a match's statistics, since it began."""
@@ -1208,17 +1213,25 @@ class ScriptedTeam:
     def memory_size(self) -> int:
         """Numbers in a team's memory."""
 
-    def begin(self, memory: NDArray[np.float32], seeds: Sequence[int]) -> None:
+    def begin(
+        self,
+        memory: NDArray[np.float32],
+        seeds: Sequence[int],
+        tactics: NDArray[np.float32] | None = None,
+    ) -> None:
         """Set the memories of teams before their first step.
 
         Args:
             memory: (n, memory) memories, changed in place.
             seeds: n seeds of the sides' random numbers, 0 to 2**32 - 1.
+            tactics: (n, tactics) numbers by which each side plays, in the order of `TACTICS`, which
+                has name, default, least and greatest value of each; None for the defaults.
 
         Raises:
             OverflowError: A seed is out of range.
-            TypeError: `memory` has another type.
-            ValueError: `memory` has another shape.
+            TypeError: An array has another type.
+            ValueError: An array has another shape, or a number of tactics is out of its range.
+                Nothing has changed.
         """
 
     def commands(
@@ -2122,10 +2135,17 @@ class VisionTracker:
     def robots_in_sight(self) -> list[int]:
         """Indices of the robots that were seen in the last half second."""
 
-    def take(self, time: float, balls: NDArray[np.float32], robots: NDArray[np.float32]) -> bool:
+    def take(
+        self,
+        time: float,
+        balls: NDArray[np.float32],
+        robots: NDArray[np.float32],
+        cut: list[int] | None = None,
+    ) -> bool:
         """Take in the detections of a camera.
 
-        Cameras with the same time are of one instant.
+        Cameras with the same time are of one instant. A ball that was seen before the mouth of a
+        robot whose break beam is cut moves with it, also while no camera sees it.
 
         Args:
             time: Time of the exposure, s, on any clock that runs evenly.
@@ -2133,6 +2153,7 @@ class VisionTracker:
                 is real.
             robots: Index in a state row, position (m) and cosine and sine of the heading of each
                 robot (m, 5), float32.
+            cut: Indices of the robots whose break beam is cut; None where robots report nothing.
 
         Returns:
             False if the frame is older than the last one; then nothing has changed.
@@ -2141,6 +2162,7 @@ class VisionTracker:
             ValueError: A number is not finite, an index that no robot has, a heading without a
                 length, or an array of another shape. Nothing has changed.
             TypeError: An array of another type. Nothing has changed.
+            OverflowError: A negative index of `cut`.
         """
 
     def read(self, out: NDArray[np.float32]) -> None:

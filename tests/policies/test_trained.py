@@ -173,7 +173,7 @@ def test_numpy_suffices(folder: Path) -> None:
         "from rsoccer.policies import trained\n"
         f"trained.FOLDER = Path({str(folder)!r})\n"
         "rsoccer.Matches('VSSSelfPlay-v0', controllers={'yellow': 'best'}).reset()\n"
-        "network = trained.load_best(rsoccer.make_task('VSS-v0'))\n"
+        "network = trained.load_best_network(rsoccer.make_task('VSS-v0'))\n"
         "try: network.save(Path('never.safetensors'))\n"
         "except ImportError as error: print(error)\n"
     )
@@ -206,7 +206,7 @@ def test_a_shipped_policy_is_small_and_fits_its_task(
 ) -> None:
     task = rsoccer.make_task(name)
     assert path.stat().st_size <= MAX_SIZE
-    network = trained.load_best(task, variant)
+    network = trained.load_best_network(task, variant)
     assert (network.sensing is None) == (variant is None)
     assert (network.task_name, network.metadata["layout"]) == (name, task.layout.text)
     training = json.loads(network.metadata["training"])
@@ -224,10 +224,10 @@ def test_a_shipped_policy_is_small_and_fits_its_task(
 @pytest.mark.parametrize("task", trained.list_trained("robust"))
 def test_robust_policies_name_the_delays_that_their_matches_drew(task: str) -> None:
     """Within half a control step of those that were asked for, see `rsoccer distill`."""
-    network = trained.load_best(rsoccer.make_task(task), "robust")
+    network = trained.load_best_network(rsoccer.make_task(task), "robust")
     command = json.loads(network.metadata["training"])["command"]
     if command.startswith("rsoccer train"):  # `best` behind a forecast
-        best = trained.load_best(rsoccer.make_task(task))
+        best = trained.load_best_network(rsoccer.make_task(task))
         assert all(np.array_equal(a, best.arrays()[name]) for name, a in network.arrays().items())
         assert network.needs_forecast
         return

@@ -38,7 +38,7 @@ def test_a_run_becomes_the_best_policy_of_its_task(
     first, second = trained.list_scores(path)
     assert (first.opponent, second.opponent) == ("zero", "ou")
     assert (first.matches, first.metric) == (20, "goal_score"), "ten starts from each side"
-    best = trained.load_best(rsoccer.make_task("VSS-v0"))
+    best = trained.load_best_network(rsoccer.make_task("VSS-v0"))
     made = json.loads(best.metadata["training"])
     command = shlex.split(made["command"])
     assert command[:4] == ["rsoccer", "train", "--task", "VSS-v0"]
@@ -104,7 +104,7 @@ def test_the_best_policy_becomes_the_robust_one_behind_a_forecast(folder: Path) 
     network.save(folder / "VSS-v0.safetensors", half_precision=True)
     path = ship_behind_forecast("VSS-v0", ["zero"], starts=10, threads=1)
     assert path == folder / "VSS-v0.robust.safetensors"
-    robust, best = trained.load_best(task, "robust"), trained.load_best(task)
+    robust, best = trained.load_best_network(task, "robust"), trained.load_best_network(task)
     assert robust.needs_forecast
     assert not best.needs_forecast
     for name, array in best.arrays().items():

@@ -10,7 +10,7 @@ import rsoccer
 from rsoccer.history import ObservationStack
 from rsoccer.matches import Matches
 from rsoccer.policies.network import Network
-from rsoccer.policies.trained import FOLDER, load_best
+from rsoccer.policies.trained import FOLDER, load_best_network
 from rsoccer.train.network.initial_policy import widened_layers, widened_normalization
 from tests.wasm.engine import numbers, run
 
@@ -34,7 +34,7 @@ return kept;
 def with_history(task: str, path: Path) -> Path:
     """The file of `best` with weights for observations and actions of the past."""
     made = rsoccer.make_task(task)
-    best, stack = load_best(made), ObservationStack.of(made, 5)
+    best, stack = load_best_network(made), ObservationStack.of(made, 5)
     (weight, bias), *others = widened_layers(best, stack)
     weight += np.random.default_rng(0).normal(size=weight.shape).astype(np.float32) / 50
     mean, std = widened_normalization(best, stack)

@@ -9,7 +9,7 @@ from typing import Any, Final, NamedTuple
 
 import rsoccer
 from rsoccer._core import COMMAND_COLUMNS, SimConfig
-from rsoccer.policies.trained import FOLDER, load_best
+from rsoccer.policies.trained import FOLDER, load_best_network
 from rsoccer.replay import match_page, page
 from rsoccer.replay.quantized import STEPS
 from tools.playground.keys import key_words, keys
@@ -61,6 +61,7 @@ class League(NamedTuple):
 
 
 _SSL: Final = (Policy("best", "best of SSLSelfPlay-v0", "SSLSelfPlay-v0.safetensors"),)
+_SSL_MATCH: Final = (Policy("best", "best of SSLMatch-v0", "SSLMatch-v0.safetensors"),)
 _VSS: Final = (
     Policy("best", "best of VSSSelfPlay-v0", "VSSSelfPlay-v0.safetensors"),
     Policy("multi", "best of VSSMulti-v0", "VSSMulti-v0.safetensors"),
@@ -71,8 +72,8 @@ _VSS_5: Final = (
     Policy("robust", "best:robust of VSSMatch-v0", "VSSMatch-v0 vss_5v5 robust"),
 )
 LEAGUES: Final = (
-    League("ssl_b", "SSL, 6 v 6 (division B)", "ssl_b", 6, "SSLMatch-v0"),
-    League("ssl_a", "SSL, 11 v 11 (division A)", "ssl_a", 11, "SSLMatch-v0"),
+    League("ssl_b", "SSL, 6 v 6 (division B)", "ssl_b", 6, "SSLMatch-v0", _SSL_MATCH),
+    League("ssl_a", "SSL, 11 v 11 (division A)", "ssl_a", 11, "SSLMatch-v0", _SSL_MATCH),
     League("ssl_3", "SSL, 3 v 3 on a small field", "ssl_challenge", 3, "SSLMatch-v0", _SSL),
     League("vss", "VSSS, 3 v 3", "vss_3v3", 3, "VSSMatch-v0", _VSS),
     League("vss_5", "VSSS, 5 v 5", "vss_5v5", 5, "VSSMatch-v0", _VSS_5),
@@ -167,7 +168,7 @@ def _encoded(name: str) -> str:
     task, field, *variant = name.split()
     league = next(league for league in LEAGUES if league.field == field)
     robots = {"n_blue": league.robots, "n_yellow": league.robots}
-    network = load_best(rsoccer.make_task(task, field=field, **robots), *variant)
+    network = load_best_network(rsoccer.make_task(task, field=field, **robots), *variant)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "policy.safetensors"
         network.save(path, half_precision=True)

@@ -38,15 +38,16 @@ pub(crate) struct Known<'a> {
 }
 
 impl Side {
-    /// The scripted SSL team.
+    /// The scripted SSL team, which plays by some tactics; `None` for those that were set by hand.
     ///
     /// # Errors
-    /// A skill out of range, or robots that it cannot drive.
+    /// A skill or tactics out of range, or robots that it cannot drive.
     pub(crate) fn scripted(
         config: &SimConfig,
         referee: &Referee,
         skill: f32,
         seed: u32,
+        tactics: Option<&[f32]>,
     ) -> Result<Self, MatchError> {
         let Some(numbers) = team_config(config, referee.layout().clone(), skill) else {
             let got = &config.field.name;
@@ -58,7 +59,7 @@ impl Side {
         };
         let team = ScriptedTeam::new(&numbers)?;
         let mut memory = vec![0.0; team.memory_columns().len()];
-        team.begin(&mut memory, seed)?;
+        team.begin(&mut memory, seed, tactics)?;
         Ok(Self::Scripted(Box::new(team), memory))
     }
 

@@ -16,6 +16,7 @@ use crate::network::Network;
 use crate::observations::robots_of;
 use crate::person::Controls;
 use crate::player::Player;
+use crate::policy_file::PolicyFile;
 use crate::self_play;
 use crate::setup::{Play, Setup};
 use crate::side::{Known, Side};
@@ -149,10 +150,30 @@ impl Match {
     /// # Errors
     /// A skill that is not from 0 to 1, or a match of VSSS.
     pub fn set_scripted(&mut self, team: Team, skill: f32) -> Result<(), MatchError> {
+        self.set_scripted_by(team, skill, None)
+    }
+
+    fn set_scripted_by(
+        &mut self,
+        team: Team,
+        skill: f32,
+        tactics: Option<&[f32]>,
+    ) -> Result<(), MatchError> {
         let [low, _] = halves(drawn(self.setup.seed, 1 + team.index()));
-        let side = Side::scripted(&self.config, &self.referee, skill, low)?;
+        let side = Side::scripted(&self.config, &self.referee, skill, low, tactics)?;
         self.set_side(team, side);
         Ok(())
+    }
+
+    /// Has the content of a policy file drive a team.
+    ///
+    /// # Errors
+    /// A network with other observations or actions, or tactics out of their ranges or in a match of VSSS.
+    pub fn set_policy(&mut self, team: Team, policy: PolicyFile) -> Result<(), MatchError> {
+        match policy {
+            PolicyFile::Network(network) => self.set_network(team, *network),
+            PolicyFile::Tactics(tactics) => self.set_scripted_by(team, 1.0, Some(&tactics)),
+        }
     }
 
     /// Has a network drive a team.

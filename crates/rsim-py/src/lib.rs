@@ -68,6 +68,7 @@ mod _core {
     use rsim_referee::features::FEATURES;
     use rsim_referee::game::Game;
     use rsim_referee::statistics::{OFFENSES, Statistics, offense_columns};
+    use rsim_teams::TACTICS;
 
     use crate::models::add_numbers;
 
@@ -93,6 +94,9 @@ mod _core {
             module.add(table, codes)?;
         }
         module.add("GAME_COLUMNS", PyTuple::new(py, Game::columns())?)?;
+        let tactics =
+            TACTICS.map(|tactic| (tactic.name, tactic.default, tactic.least, tactic.most));
+        module.add("TACTICS", PyTuple::new(py, tactics)?)?;
         module.add(
             "STATISTICS_COLUMNS",
             PyTuple::new(py, [Statistics::columns(), offense_columns()].concat())?,

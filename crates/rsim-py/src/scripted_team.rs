@@ -7,7 +7,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rsim_referee::Team;
 use rsim_referee::game::Game;
-use rsim_teams::COMMAND_COLUMNS;
+use rsim_teams::{COMMAND_COLUMNS, TACTICS};
 
 use crate::arrays::{Rows, readable, sizes, values, writeable};
 use crate::config::SimConfig;
@@ -57,13 +57,27 @@ impl ScriptedTeam {
     }
 
     /// Sets the memories of teams before their first step.
-    fn begin(&self, memory: &Bound<'_, PyAny>, seeds: Vec<u32>) -> PyResult<()> {
+    #[pyo3(signature = (memory, seeds, tactics = None))]
+    fn begin(
+        &self,
+        memory: &Bound<'_, PyAny>,
+        seeds: Vec<u32>,
+        tactics: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<()> {
         let mut memory: PyReadwriteArray<'_, f32, Ix2> =
             writeable("memory", memory, &[seeds.len(), self.memory_size])?;
-        let each = memory.as_slice_mut()?.chunks_exact_mut(self.memory_size);
-        for (memory, seed) in each.zip(seeds) {
-            self.team.begin(memory, seed).map_err(invalid)?;
+        let numbers = TACTICS.len();
+        let tactics: Option<Rows> = tactics
+            .map(|tactics| readable("tactics", tactics, &[seeds.len(), numbers]))
+            .transpose()?;
+        let tactics = tactics.as_ref().map(values);
+        let mut begun = vec![0.0; seeds.len() * self.memory_size];
+        let each = begun.chunks_exact_mut(self.memory_size).zip(seeds);
+        for (nth, (memory, seed)) in each.enumerate() {
+            let own = tactics.as_ref().map(|all| &all[nth * numbers..][..numbers]);
+            self.team.begin(memory, seed, own).map_err(invalid)?;
         }
+        memory.as_slice_mut()?.copy_from_slice(&begun);
         Ok(())
     }
 

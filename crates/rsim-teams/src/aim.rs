@@ -10,29 +10,16 @@ use crate::rolling::kick_speed;
 use crate::situation::Situation;
 use crate::view::Player;
 
-/// Speed of the ball after a kick, m/s; the rules allow 6.5.
-pub(crate) const MAX_BALL_SPEED: f32 = 6.0;
 /// Places in the goal that are tried, as shares of half its width.
 const GOAL_PLACES: [f32; 9] = [0.0, -0.22, 0.22, -0.44, 0.44, -0.63, 0.63, -0.8, 0.8];
 /// Places in the goal by which a position is valued.
 const FEW_PLACES: [f32; 3] = [0.0, -0.7, 0.7];
-/// Speed of a pass on arrival, m/s: the dribbler stops it.
-const ARRIVAL_SPEED: f32 = 2.4;
 /// Shortest and longest pass, m.
 const PASS_DISTANCES: [f32; 2] = [0.9, 6.5];
-/// Time for which a receiver goes on as it does, s.
-const LEAD: f32 = 0.35;
 /// Share of a long pass's way that a chip flies.
 const FLIGHT_SHARE: f32 = 0.6;
 /// Way before its landing on which a chip is low, m.
 const LOW: f32 = 0.25;
-/// Likelihood that a chip is received, if nobody stops it.
-const CHIP_RECEPTION: f32 = 0.75;
-/// Share of the value of a long shot that is worth it: aimless kicks give free kicks.
-const AIMLESS: f32 = 0.3;
-/// Value of the ball at a place from which a shot is a sure goal, and of the way over the field to the goal.
-const GOAL_VALUE: f32 = 0.55;
-const PROGRESS_VALUE: f32 = 0.25;
 /// Share of a pass's first speed that it has on its way, along the floor and in the air.
 const MEAN_PASS_SPEED: [f32; 2] = [0.7, 0.6];
 /// Directions of clearances.
@@ -47,16 +34,10 @@ const CLEARANCES: [Vector; 5] = [
 const CLEARANCE: f32 = 3.0;
 /// Speed of a clearance, m/s.
 const CLEARANCE_SPEED: f32 = 4.5;
-/// Value of a clearance that no opponent stops.
-const CLEARANCE_VALUE: f32 = 0.04;
 /// Way of a ball that its kicker follows, m.
 const RUN: f32 = 1.2;
 /// Speed of such a kick, m/s.
 const RUN_SPEED: f32 = 2.0;
-/// Distance from opponents that it needs, m.
-const RUN_SPACE: f32 = 1.0;
-/// Its value.
-const RUN_VALUE: f32 = 0.1;
 const GRAVITY: f32 = 9.81;
 
 /// A kick.
@@ -95,8 +76,8 @@ pub(crate) fn best_kick(s: &Situation, from: Vector, kicker: usize) -> Kick {
 /// The best shot at the goal.
 pub(crate) fn shot(s: &Situation, from: Vector) -> Kick {
     let (at, chance) = best_goal_place(s, from, &GOAL_PLACES, &s.view.others);
-    let value = if from.x < 0.0 { AIMLESS * chance } else { chance };
-    Kick { at, speed: MAX_BALL_SPEED, chip: false, receiver: None, value }
+    let value = if from.x < 0.0 { s.tactics.long_shot_share * chance } else { chance };
+    Kick { at, speed: s.tactics.ball_speed, chip: false, receiver: None, value }
 }
 
 /// The place in the goal that is most likely hit, and the likelihood.
@@ -111,8 +92,8 @@ fn best_goal_place(
     let mut best = (goal, -1.0);
     for share in places {
         let end = Vector::new(goal.x, share * half);
-        let lane = Lane { start: from, end, speed: MAX_BALL_SPEED, flies: 0.0 };
-        let found = margin(&lane, opponents, s.body());
+        let lane = Lane { start: from, end, speed: s.tactics.ball_speed, flies: 0.0 };
+        let found = margin(s.tactics, &lane, opponents, s.body());
         if found > best.1 {
             best = (end, found);
         }
@@ -120,7 +101,7 @@ fn best_goal_place(
     // From the side the mouth of the goal is narrow.
     let way = goal - from;
     let frontal = (way.x / way.length().max(0.1)).clamp(0.0, 1.0);
-    (best.0, chance(best.1) * frontal)
+    (best.0, chance(s.tactics, best.1) * frontal)
 }
 
 /// Value of receiving the ball at a place, `time` (s) after a kick to it: the opponents use that time.
@@ -129,12 +110,13 @@ pub(crate) fn value_at(s: &Situation, place: Vector, time: f32) -> f32 {
     let (_, goal) = best_goal_place(s, place, &FEW_PLACES, &opponents);
     let half_length = s.pitch.lines.half_length;
     let progress = (place.x + half_length) / (2.0 * half_length);
-    GOAL_VALUE * goal + PROGRESS_VALUE * progress
+    s.tactics.goal_value * goal + s.tactics.progress_value * progress
 }
 
 /// The better of the flat and the high pass to a teammate; none if it is unlikely to arrive.
 fn pass(s: &Situation, from: Vector, teammate: &Player) -> Option<Kick> {
-    let wanted = s.pitch.inside(teammate.position + teammate.velocity * LEAD, 0.15);
+    let wanted =
+        s.pitch.inside(teammate.position + teammate.velocity * s.tactics.receiver_lead, 0.15);
     let at = s.pitch.outside(Area::Theirs, wanted, s.config.robot.radius);
     let distance = from.distance(at);
     if !(PASS_DISTANCES[0]..PASS_DISTANCES[1]).contains(&distance)
@@ -142,19 +124,24 @@ fn pass(s: &Situation, from: Vector, teammate: &Player) -> Option<Kick> {
     {
         return None;
     }
-    let speed = kick_speed(distance, ARRIVAL_SPEED, &s.config.ball).min(MAX_BALL_SPEED);
+    let speed =
+        kick_speed(distance, s.tactics.arrival_speed, &s.config.ball).min(s.tactics.ball_speed);
     let flat = Lane { start: from, end: at, speed, flies: 0.0 };
-    let passes = chance(margin(&flat, &s.view.others, s.body()));
+    let passes = chance(s.tactics, margin(s.tactics, &flat, &s.view.others, s.body()));
     let flight = FLIGHT_SHARE * distance;
     let chip_speed = (GRAVITY * flight).sqrt();
     let high = Lane { speed: chip_speed, flies: flight - LOW, ..flat };
-    let flies = if passes > CHIP_RECEPTION || flight < 2.0 * LOW || chip_speed > MAX_BALL_SPEED {
+    let flies = if passes > s.tactics.chip_reception
+        || flight < 2.0 * LOW
+        || chip_speed > s.tactics.ball_speed
+    {
         0.0
     } else {
-        CHIP_RECEPTION * chance(margin(&high, &s.view.others, s.body()))
+        s.tactics.chip_reception
+            * chance(s.tactics, margin(s.tactics, &high, &s.view.others, s.body()))
     };
     let arrives = passes.max(flies);
-    if arrives < s.skill.pass_threshold {
+    if arrives < s.skill.caution * s.tactics.pass_threshold {
         return None;
     }
     let chip = flies > passes;
@@ -168,9 +155,13 @@ fn pass(s: &Situation, from: Vector, teammate: &Player) -> Option<Kick> {
 fn run(s: &Situation, from: Vector) -> Kick {
     let goal = (s.pitch.their_goal() - from).unit_or(Vector::new(1.0, 0.0));
     let at = from + goal * RUN;
-    let is_free = s.nearest_opponent(from) > RUN_SPACE && s.nearest_opponent(at) > RUN_SPACE;
-    let value =
-        if is_free && s.pitch.distance_to(Area::Theirs, at) > 0.3 { RUN_VALUE } else { 0.0 };
+    let is_free = s.nearest_opponent(from) > s.tactics.run_space
+        && s.nearest_opponent(at) > s.tactics.run_space;
+    let value = if is_free && s.pitch.distance_to(Area::Theirs, at) > 0.3 {
+        s.tactics.run_value
+    } else {
+        0.0
+    };
     Kick { at, speed: RUN_SPEED, chip: false, receiver: None, value }
 }
 
@@ -185,8 +176,8 @@ fn clearance(s: &Situation, from: Vector) -> Kick {
         }
         let flies = CLEARANCE_SPEED * CLEARANCE_SPEED / GRAVITY - LOW;
         let lane = Lane { start: from, end, speed: CLEARANCE_SPEED, flies };
-        let clear = chance(margin(&lane, &s.view.others, s.body()));
-        let value = CLEARANCE_VALUE * clear;
+        let clear = chance(s.tactics, margin(s.tactics, &lane, &s.view.others, s.body()));
+        let value = s.tactics.clearance_value * clear;
         if value > best.value {
             best = Kick { at: end, speed: CLEARANCE_SPEED, chip: true, receiver: None, value };
         }
@@ -215,7 +206,7 @@ mod tests {
         scene.situation(PLAY, |s| {
             let kick = shot(s, s.ball());
             assert!(kick.at.y < -0.1 && kick.at.y > -0.5 && kick.value > 0.5, "{kick:?}");
-            assert!(kick.speed <= MAX_BALL_SPEED && !kick.chip);
+            assert!(kick.speed <= s.tactics.ball_speed && !kick.chip);
             let far = shot(s, Vector::new(-2.0, 0.0));
             assert!(far.value < 0.3, "{far:?}");
         });
@@ -244,7 +235,7 @@ mod tests {
         scene.situation(PLAY, |s| {
             let teammate = s.view.own.with_index(1).expect("a teammate");
             let over = pass(s, s.ball(), teammate).expect("it flies");
-            assert!(over.chip && over.speed <= MAX_BALL_SPEED, "{over:?}");
+            assert!(over.chip && over.speed <= s.tactics.ball_speed, "{over:?}");
         });
         scene.robot(2, [-0.2, 1.5]);
         scene.situation(PLAY, |s| {

@@ -8,18 +8,15 @@ use crate::plane::Plane;
 use crate::situation::{KEEPER, Situation};
 use crate::view::Players;
 
-/// Distance of a keeper from the middle of its goal, as a share of half the goal's width.
-const KEEPER_OFF: f32 = 0.9;
-
 /// The opponents, `time` (s) after a kick to a place, if they defend against a shot from there.
 pub(crate) fn opponents(s: &Situation, from: Vector, time: f32) -> Players {
     let goal = s.pitch.their_goal();
     let out = (from - goal).unit_or(Vector::new(-1.0, 0.0));
-    let reach = reach(time);
+    let reach = reach(s.tactics, time);
     let mut moved = s.view.others;
     for other in moved.iter_mut() {
         let wanted = if other.index == KEEPER {
-            goal + out * (KEEPER_OFF * s.pitch.lines.half_goal_width)
+            goal + out * (s.tactics.their_keeper_distance * s.pitch.lines.half_goal_width)
         } else {
             let along = (other.position - goal).dot(out).clamp(0.0, from.distance(goal));
             s.pitch.outside(Area::Theirs, goal + out * along, s.config.robot.radius)

@@ -11,23 +11,12 @@ use crate::view::Player;
 
 /// Speed of a ball that is received rather than fetched, m/s.
 const RECEIVED_SPEED: f32 = 0.5;
-/// Distance between mouth and ball before the final approach, m.
-const STANDOFF: f32 = 0.09;
-/// Speed into the ball, m/s.
-const PRESS_SPEED: f32 = 0.35;
 /// Cosine of the heading's error for the final approach.
 const FACING_COSINE: f32 = 0.97;
 /// Error to the side for the final approach, m.
 const MAX_ASIDE: f32 = 0.025;
 /// Room to the ball while driving around it, m.
 const BALL_ROOM: f32 = 0.03;
-
-/// Cosine of the angle between a coming ball's way back and the direction of a kick at first touch.
-const MAX_REDIRECTION: f32 = 0.35;
-/// Share of the ball's speed across the front that a kick keeps.
-const KEPT_ACROSS: f32 = 0.35;
-/// Value of a shot that is made at first touch.
-const FIRST_TOUCH_VALUE: f32 = 0.2;
 
 /// Order to take the ball, facing `direction` (a unit vector) where that does not matter for time.
 pub(crate) fn take(s: &Situation, robot: &Player, meeting: Meeting, direction: Vector) -> Order {
@@ -54,13 +43,13 @@ fn receive(s: &Situation, robot: &Player, meeting: Meeting) -> Order {
     let order = Order { ball_distance: 0.0, ..Order::to(touch + ahead * mouth, ahead * -1.0) };
     let kick = aim::shot(s, touch);
     let direction = (kick.at - touch).unit_or(ahead);
-    if kick.value < FIRST_TOUCH_VALUE || direction.dot(ahead) > -MAX_REDIRECTION {
+    if kick.value < s.tactics.first_touch_value || direction.dot(ahead) > -s.tactics.redirection {
         return Order { dribbler: 1.0, ..order };
     }
     // The kick keeps part of the speed across the front, so the front turns a little the other way.
     let kick = aim::with_error(s, kick, touch, robot.index);
     let direction = (kick.at - touch).unit_or(ahead);
-    let across = KEPT_ACROSS * s.view.ball.velocity.dot(direction.left()) / kick.speed;
+    let across = s.tactics.kept_across * s.view.ball.velocity.dot(direction.left()) / kick.speed;
     let heading = (direction - direction.left() * across).unit_or(direction);
     let is_facing = robot.heading.dot(heading) > 0.98;
     let shoots = [if is_facing { kick.speed - 0.3 } else { 0.0 }, 0.0];
@@ -81,14 +70,14 @@ fn fetch(s: &Situation, robot: &Player, meeting: Meeting, direction: Vector) -> 
     if near && is_aligned {
         let target = at - direction * mouth;
         return Order {
-            moving: ball.velocity + direction * PRESS_SPEED,
+            moving: ball.velocity + direction * s.tactics.press_speed,
             dribbler: 1.0,
             ball_distance: 0.0,
             straight: true,
             ..Order::to(target, direction)
         };
     }
-    let target = at - direction * (mouth + STANDOFF);
+    let target = at - direction * (mouth + s.tactics.standoff);
     let moving = if near { ball.velocity } else { Vector::default() };
     let dribbler = if near { 1.0 } else { 0.0 };
     Order { moving, dribbler, ball_distance: mouth + BALL_ROOM, ..Order::to(target, direction) }

@@ -8,18 +8,8 @@ use crate::rolling::INTERVAL;
 use crate::situation::Situation;
 use crate::view::Player;
 
-/// Distance of the wall's centers from the own area, m, beyond the robots' radius.
-const WALL_ROOM: f32 = 0.06;
-/// Places in the goal that two robots of the wall cover, as shares of half its width.
-const COVERED: f32 = 0.5;
 /// Distance between centers in the wall, m.
 const SPACING: f32 = 0.2;
-/// Distance of a mark from its opponent, m.
-const MARK_DISTANCE: f32 = 0.32;
-/// Weight of the ball against the goal in the direction of a mark.
-const TOWARD_BALL: f32 = 0.5;
-/// Distance from the own goal within which opponents are marked, as a share of the field's length.
-const DANGER: f32 = 0.75;
 /// Number by which marks are numbered among the jobs.
 const MARK_NUMBER: i32 = 10;
 
@@ -28,7 +18,7 @@ pub(crate) fn add_wall(s: &Situation, count: usize, jobs: &mut Jobs) {
     let ball = s.path.places[1].x.max(s.pitch.own_goal().x + 0.05);
     let ball = Vector::new(ball, s.path.places[1].y);
     let goal = s.pitch.own_goal();
-    let margin = s.config.robot.radius + WALL_ROOM;
+    let margin = s.config.robot.radius + s.tactics.wall_room;
     let half = s.pitch.lines.half_goal_width;
     let Some(middle) = s.pitch.entry(ball, goal, margin) else {
         add_beside(s, ball, margin, count, jobs);
@@ -41,7 +31,7 @@ pub(crate) fn add_wall(s: &Situation, count: usize, jobs: &mut Jobs) {
     let aside = (goal - ball).unit_or(Vector::new(-1.0, 0.0)).left();
     for (number, side) in [(0, 1.0), (1, -1.0)] {
         // The goal's left, as seen from the ball, is at -y.
-        let cover = goal - Vector::new(0.0, side * COVERED * half);
+        let cover = goal - Vector::new(0.0, side * s.tactics.wall_cover * half);
         let place = s.pitch.entry(ball, cover, margin).unwrap_or(middle);
         let least = middle + aside * (side * 0.5 * SPACING);
         let is_apart = (place - middle).dot(aside) * side > 0.5 * SPACING;
@@ -63,7 +53,7 @@ fn add_beside(s: &Situation, ball: Vector, margin: f32, count: usize, jobs: &mut
 pub(crate) fn add_marks(s: &Situation, count: usize, jobs: &mut Jobs) -> usize {
     let goal = s.pitch.own_goal();
     let at_ball = s.others.first(|_| true).map(|(index, _)| index);
-    let reach = 2.0 * s.pitch.lines.half_length * DANGER;
+    let reach = 2.0 * s.pitch.lines.half_length * s.tactics.marked_share;
     let mut added = 0;
     let mut marked = 0_u32;
     while added < count {
@@ -79,9 +69,9 @@ pub(crate) fn add_marks(s: &Situation, count: usize, jobs: &mut Jobs) -> usize {
         let place = other.position + other.velocity * (2.0 * INTERVAL);
         let to_goal = (goal - place).unit_or(Vector::new(-1.0, 0.0));
         let to_ball = (s.ball() - place).unit_or(to_goal);
-        let direction = (to_goal + to_ball * TOWARD_BALL).unit_or(to_goal);
+        let direction = (to_goal + to_ball * s.tactics.mark_toward_ball).unit_or(to_goal);
         let number = MARK_NUMBER + i32::try_from(other.index).unwrap_or(0);
-        jobs.add(Job::at(number, place + direction * MARK_DISTANCE));
+        jobs.add(Job::at(number, place + direction * s.tactics.mark_distance));
         added += 1;
     }
     added

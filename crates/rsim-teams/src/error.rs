@@ -15,6 +15,18 @@ pub enum TeamsError {
         /// Number given.
         got: f32,
     },
+    /// A number of the tactics outside its range.
+    #[error("tactics: expected {name} from {least} to {most}, got {got}")]
+    Tactic {
+        /// Name of the number.
+        name: &'static str,
+        /// Least value.
+        least: f32,
+        /// Greatest value.
+        most: f32,
+        /// Number given.
+        got: f32,
+    },
     /// A team that is too large.
     #[error("layout: expected at most {expected} robots a team, got {got}")]
     TooManyRobots {

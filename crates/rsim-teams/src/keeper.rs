@@ -13,8 +13,6 @@ use crate::view::Player;
 const SHOT_SPEED: f32 = 0.6;
 /// Distance beside the posts at which a shot still counts as one, m.
 const POST_ROOM: f32 = 0.15;
-/// Distance of the keeper from the middle of the goal, as a share of half its width.
-const OFF_LINE: f32 = 0.9;
 /// Distance from the goal of a keeper that a kicker comes to, as a share of the ball's, and at most, m.
 const OUT_SHARE: f32 = 0.7;
 const MAX_OUT: f32 = 1.8;
@@ -76,7 +74,7 @@ fn save(s: &Situation, keeper: &Player, crossing: Vector) -> Vector {
 
 /// Distance of the keeper from the middle of the goal, m: against a kicker that comes alone it comes out.
 fn off_line(s: &Situation) -> f32 {
-    let usual = OFF_LINE * s.pitch.lines.half_goal_width;
+    let usual = s.tactics.keeper_distance * s.pitch.lines.half_goal_width;
     if s.phase.mode == Mode::Play || s.phase.restart != Restart::Penalty {
         return usual;
     }

@@ -1,18 +1,12 @@
 //! Kicks of a robot that has the ball: when it makes them, and with which command.
 
-use crate::aim::{Kick, MAX_BALL_SPEED};
+use crate::aim::Kick;
 use crate::memory::TeamMemory;
 use crate::order::Order;
 use crate::plane::Plane;
 use crate::situation::Situation;
 use crate::view::Player;
 
-/// Sine of the error of direction for a shot, a pass along the floor, and a chip.
-const SHOT_SINE: f32 = 0.025;
-const PASS_SINE: f32 = 0.06;
-const CHIP_SINE: f32 = 0.12;
-/// Angular velocity for a kick, rad/s.
-const MAX_KICK_TURNING: f32 = 1.5;
 /// Way within the field that a kick out of a crowd needs, m.
 const STUCK_WAY: f32 = 2.0;
 /// Speed of a kick out of a crowd, m/s.
@@ -30,7 +24,7 @@ pub(crate) fn release(
     kick: &Kick,
     order: &mut Order,
 ) {
-    release_within(s, memory, robot, kick, max_sine(kick), order);
+    release_within(s, memory, robot, kick, max_sine(s, kick), order);
 }
 
 /// Kicks if the ball would go where the kick is to go, up to the sine of an angle.
@@ -68,16 +62,16 @@ fn aligned(s: &Situation, robot: &Player, kick: &Kick, sine: f32) -> Option<[f32
     let result = result.unit_or(robot.heading);
     let is_aligned = result.dot(direction) > 0.0
         && result.cross(direction).abs() < sine
-        && robot.angular_velocity.abs() < MAX_KICK_TURNING;
+        && robot.angular_velocity.abs() < s.tactics.kick_turning;
     is_aligned.then_some(command)
 }
 
 /// Sine of the error of direction within which a kick is made: a receiver corrects that of a pass.
-fn max_sine(kick: &Kick) -> f32 {
+fn max_sine(s: &Situation, kick: &Kick) -> f32 {
     match kick.receiver {
-        _ if kick.chip => CHIP_SINE,
-        Some(_) => PASS_SINE,
-        None => SHOT_SINE,
+        _ if kick.chip => s.tactics.chip_sine,
+        Some(_) => s.tactics.pass_sine,
+        None => s.tactics.shot_sine,
     }
 }
 
@@ -87,11 +81,11 @@ pub(crate) fn command(s: &Situation, kick: &Kick, ahead: f32) -> [f32; 2] {
     const DIAGONAL: f32 = std::f32::consts::FRAC_1_SQRT_2;
     let robot = &s.config.robot;
     if kick.chip {
-        let speed = kick.speed.min(robot.max_chip_speed).min(MAX_BALL_SPEED) * DIAGONAL;
+        let speed = kick.speed.min(robot.max_chip_speed).min(s.tactics.ball_speed) * DIAGONAL;
         [(speed - ahead).min(speed).max(MIN_KICK), speed]
     } else {
-        let speed = kick.speed.min(robot.max_kick_speed).min(MAX_BALL_SPEED);
-        [(speed - ahead).clamp(MIN_KICK, MAX_BALL_SPEED), 0.0]
+        let speed = kick.speed.min(robot.max_kick_speed).min(s.tactics.ball_speed);
+        [(speed - ahead).clamp(MIN_KICK, s.tactics.ball_speed), 0.0]
     }
 }
 
@@ -103,7 +97,7 @@ pub(crate) fn out_of_crowd(s: &Situation, robot: &Player, kick: Kick) -> Kick {
     let is_shot = robot.heading.x > 0.0 && y.abs() < s.pitch.lines.half_goal_width;
     let at = ball + robot.heading * STUCK_WAY;
     if is_shot {
-        return Kick { at: goal, speed: MAX_BALL_SPEED, chip: false, ..kick };
+        return Kick { at: goal, speed: s.tactics.ball_speed, chip: false, ..kick };
     }
     Kick { at, speed: STUCK_KICK, chip: s.pitch.lines.is_inside(at, 0.0), ..kick }
 }
@@ -126,7 +120,7 @@ mod tests {
         let command_to = |scene: &Scene, at| {
             scene.situation(PLAY, |s| {
                 let kick = flat(at, 6.0);
-                aligned(s, &s.view.own[0], &kick, max_sine(&kick))
+                aligned(s, &s.view.own[0], &kick, max_sine(s, &kick))
             })
         };
         assert!(command_to(&scene, Vector::new(4.5, 0.0)).is_some());
@@ -143,7 +137,7 @@ mod tests {
         scene.situation(PLAY, |s| {
             let kick = flat(Vector::new(4.5, 0.0), 9.0);
             let total = command(s, &kick, 1.5)[0] + 1.5;
-            assert!((total - MAX_BALL_SPEED).abs() < 1e-5, "{total}");
+            assert!((total - s.tactics.ball_speed).abs() < 1e-5, "{total}");
             let [ahead, up] = command(s, &Kick { chip: true, speed: 4.0, ..kick }, 0.5);
             assert!((ahead + 0.5 - up).abs() < 1e-5 && (up - 2.828).abs() < 1e-2);
         });

@@ -3,16 +3,9 @@
 use rsim_referee::Vector;
 
 use crate::plane::Plane;
+use crate::tactics::Tactics;
 use crate::view::Player;
 
-/// Time after a kick until opponents react, s.
-const REACTION: f32 = 0.15;
-/// Acceleration of opponents toward the ball, m/s².
-const ACCELERATION: f32 = 3.0;
-/// Speed of opponents toward the ball, m/s.
-const SPEED: f32 = 2.0;
-/// Share of a kick's speed that the ball has on its way.
-const MEAN_SPEED: f32 = 0.75;
 /// Margin from which no opponent is in the way, m.
 pub(crate) const FREE: f32 = 1.0;
 
@@ -31,7 +24,7 @@ pub(crate) struct Lane {
 
 /// Distance by which the ball passes the opponent that comes nearest to stopping it, m; negative if it can.
 /// `body` is the sum of the radii of robot and ball.
-pub(crate) fn margin(lane: &Lane, opponents: &[Player], body: f32) -> f32 {
+pub(crate) fn margin(t: &Tactics, lane: &Lane, opponents: &[Player], body: f32) -> f32 {
     let way = lane.end - lane.start;
     let length = way.length();
     let ahead = way.unit_or(Vector::new(1.0, 0.0));
@@ -42,28 +35,28 @@ pub(crate) fn margin(lane: &Lane, opponents: &[Player], body: f32) -> f32 {
             continue;
         }
         let along = along.clamp(0.0, length);
-        let time = along / (lane.speed * MEAN_SPEED);
-        let place = opponent.position + opponent.velocity * time.min(REACTION);
+        let time = along / (lane.speed * t.lane_ball_share);
+        let place = opponent.position + opponent.velocity * time.min(t.reaction_time);
         let gap = place.distance(lane.start + ahead * along);
-        least = least.min(gap - body - reach(time));
+        least = least.min(gap - body - reach(t, time));
     }
     least
 }
 
 /// Distance that an opponent moves toward the ball in a time (s) after the kick, m.
-pub(crate) fn reach(time: f32) -> f32 {
-    let time = (time - REACTION).max(0.0);
-    let speeding_up = SPEED / ACCELERATION;
+pub(crate) fn reach(t: &Tactics, time: f32) -> f32 {
+    let time = (time - t.reaction_time).max(0.0);
+    let speeding_up = t.lane_speed / t.lane_acceleration;
     if time < speeding_up {
-        0.5 * ACCELERATION * time * time
+        0.5 * t.lane_acceleration * time * time
     } else {
-        SPEED * (time - 0.5 * speeding_up)
+        t.lane_speed * (time - 0.5 * speeding_up)
     }
 }
 
 /// Likelihood that a ball with this margin passes.
-pub(crate) fn chance(margin: f32) -> f32 {
-    ((margin + 0.1) / 0.35).clamp(0.0, 1.0)
+pub(crate) fn chance(t: &Tactics, margin: f32) -> f32 {
+    ((margin + t.chance_offset) / t.chance_width).clamp(0.0, 1.0)
 }
 
 #[cfg(test)]
@@ -82,18 +75,21 @@ mod tests {
 
     #[test]
     fn opponents_have_more_time_far_from_the_kick() {
-        let near = margin(&lane(4.0), &opponent(0.5, 0.4), BODY);
-        let far = margin(&lane(4.0), &opponent(3.5, 0.4), BODY);
+        let near = margin(&Tactics::DEFAULT, &lane(4.0), &opponent(0.5, 0.4), BODY);
+        let far = margin(&Tactics::DEFAULT, &lane(4.0), &opponent(3.5, 0.4), BODY);
         assert!((near - 0.29).abs() < 0.01, "{near}");
-        assert!(far < 0.0 && chance(far) < chance(near), "{far}");
+        assert!(
+            far < 0.0 && chance(&Tactics::DEFAULT, far) < chance(&Tactics::DEFAULT, near),
+            "{far}"
+        );
     }
 
     #[test]
     fn opponents_behind_the_kick_or_under_its_flight_are_not_in_the_way() {
-        assert!(margin(&lane(2.0), &opponent(-0.5, 0.0), BODY) >= FREE);
+        assert!(margin(&Tactics::DEFAULT, &lane(2.0), &opponent(-0.5, 0.0), BODY) >= FREE);
         let blocked = opponent(0.8, 0.0);
-        assert!(margin(&lane(3.0), &blocked, BODY) < 0.0);
+        assert!(margin(&Tactics::DEFAULT, &lane(3.0), &blocked, BODY) < 0.0);
         let chip = Lane { flies: 1.5, ..lane(3.0) };
-        assert!(margin(&chip, &blocked, BODY) >= FREE);
+        assert!(margin(&Tactics::DEFAULT, &chip, &blocked, BODY) >= FREE);
     }
 }

@@ -35,6 +35,7 @@ mod rolling;
 mod situation;
 mod skill;
 mod support;
+mod tactics;
 mod team;
 #[cfg(test)]
 mod testing;
@@ -42,4 +43,5 @@ mod view;
 
 pub use config::{BallNumbers, MAX_ROBOTS, RobotNumbers, TeamConfig};
 pub use error::TeamsError;
+pub use tactics::{TACTICS, Tactic};
 pub use team::{COMMAND_COLUMNS, ScriptedTeam};

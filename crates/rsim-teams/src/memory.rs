@@ -4,6 +4,7 @@ use rsim_referee::Vector;
 use rsim_referee::column::Column;
 
 use crate::error::TeamsError;
+use crate::tactics::Tactics;
 
 /// Declares a struct whose fields stand in columns of a row.
 macro_rules! record {
@@ -150,6 +151,8 @@ impl RobotMemory {
 pub(crate) struct Memory {
     /// Of the team.
     pub(crate) team: TeamMemory,
+    /// The numbers by which it plays.
+    pub(crate) tactics: Tactics,
     /// Of each robot.
     pub(crate) robots: [RobotMemory; crate::config::MAX_ROBOTS],
 }
@@ -158,18 +161,22 @@ impl Memory {
     /// Names of the columns for `robots`.
     pub(crate) fn columns(robots: usize) -> Vec<String> {
         let of_robots = (0..robots).flat_map(|index| RobotMemory::columns(&format!("_{index}")));
-        TeamMemory::columns("").into_iter().chain(of_robots).collect()
+        TeamMemory::columns("").into_iter().chain(Tactics::columns()).chain(of_robots).collect()
     }
 
     /// Memory before the first step.
     pub(crate) fn new(seed: u32) -> Self {
-        Self { team: TeamMemory::new(seed), robots: [RobotMemory::NEW; crate::config::MAX_ROBOTS] }
+        let robots = [RobotMemory::NEW; crate::config::MAX_ROBOTS];
+        Self { team: TeamMemory::new(seed), tactics: Tactics::DEFAULT, robots }
     }
 
     /// Reads the memory of `robots` from a row.
     pub(crate) fn read(row: &[f32], robots: usize) -> Result<Self, TeamsError> {
-        let (team, mut rest) = TeamMemory::read(row)?;
-        let mut memory = Self { team, ..Self::new(0) };
+        let (team, rest) = TeamMemory::read(row)?;
+        let cut_off =
+            TeamsError::Size { name: "memory", expected: Tactics::COUNT, got: rest.len() };
+        let (tactics, mut rest) = rest.split_at_checked(Tactics::COUNT).ok_or(cut_off)?;
+        let mut memory = Self { team, tactics: Tactics::read(tactics)?, ..Self::new(0) };
         for robot in &mut memory.robots[..robots] {
             (*robot, rest) = RobotMemory::read(rest)?;
         }
@@ -178,7 +185,7 @@ impl Memory {
 
     /// Writes the memory of `robots` to a row.
     pub(crate) fn write(&self, row: &mut [f32], robots: usize) {
-        let mut rest = self.team.write(row);
+        let mut rest = self.tactics.write(self.team.write(row));
         for robot in &self.robots[..robots] {
             rest = robot.write(rest);
         }

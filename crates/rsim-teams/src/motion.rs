@@ -10,12 +10,9 @@ use crate::path::{self, Obstacles};
 use crate::pitch::Pitch;
 use crate::plane::{Plane, turn_to};
 use crate::skill::Skill;
+use crate::tactics::Tactics;
 use crate::view::{Player, View};
 
-/// Share of the maximum deceleration with which robots plan to brake.
-const BRAKING: f32 = 0.55;
-/// Speed by the distance that is left, 1/s: the last centimeters.
-const POSITION_GAIN: f32 = 9.0;
 /// Angular velocity by the angle that is left, 1/s.
 const TURN_GAIN: f32 = 9.0;
 /// Angular velocity without the ball, rad/s.
@@ -24,21 +21,14 @@ const MAX_TURNING: f32 = 12.0;
 const TURN_BRAKING: f32 = 30.0;
 /// Speed at which a robot leaves a place where it must not be, m/s for each m.
 const LEAVING_GAIN: f32 = 6.0;
-/// Deceleration with which a robot plans to come to a limit, m/s².
-const LIMIT_BRAKING: f32 = 3.0;
 /// Speed toward a limit by the distance that is left, 1/s: half a step's way is left after a step.
 const LIMIT_GAIN: f32 = 20.0;
 /// Distance from other robots that ways keep, m.
 const OWN_ROOM: f32 = 0.03;
-const THEIR_ROOM: f32 = 0.06;
 /// Distance within which other robots limit the speed, m.
 const NEAR: f32 = 1.5;
 /// Gap at which robots do not close any more, m.
 const CONTACT_GAP: f32 = 0.02;
-/// Share of the speed of a robot in contact at which it is followed.
-const FOLLOWING: f32 = 0.6;
-/// Deceleration with which a robot plans to meet another one, m/s².
-const MEETING_BRAKING: f32 = 2.5;
 /// Time for which others are expected to go on, s.
 const FORESIGHT: f32 = 0.25;
 
@@ -47,6 +37,7 @@ pub(crate) struct Driving<'a> {
     pub(crate) config: &'a TeamConfig,
     pub(crate) pitch: &'a Pitch,
     pub(crate) skill: &'a Skill,
+    pub(crate) tactics: &'a Tactics,
     pub(crate) view: &'a View,
 }
 
@@ -73,11 +64,11 @@ impl Driving<'_> {
         };
         let way = corner - robot.position;
         let length = way.length() + corner.distance(target);
-        let braking = BRAKING * self.config.robot.max_deceleration;
-        let speed = (2.0 * braking * length).sqrt().min(POSITION_GAIN * length);
+        let braking = self.tactics.braking_share * self.config.robot.max_deceleration;
+        let speed = (2.0 * braking * length).sqrt().min(self.tactics.position_gain * length);
         let wanted = way.unit_or(Vector::default()) * speed + order.moving;
         let mut velocity = wanted.limited(order.max_speed.min(bounds.max_speed));
-        let braking = LIMIT_BRAKING.min(0.8 * order.acceleration);
+        let braking = self.tactics.limit_braking.min(0.8 * order.acceleration);
         for limit in bounds.limits(robot.position, self.pitch) {
             velocity = kept_off(velocity, &limit, braking);
         }
@@ -87,7 +78,7 @@ impl Driving<'_> {
         velocity = self.kept_off_robots(robot, velocity);
         let is_faster = velocity.length() > robot.velocity.length();
         let own = if is_faster {
-            self.skill.speed * self.config.robot.max_acceleration
+            self.skill.speed * self.tactics.acceleration_share * self.config.robot.max_acceleration
         } else {
             f32::INFINITY
         };
@@ -129,7 +120,7 @@ impl Driving<'_> {
             add(other, OWN_ROOM);
         }
         for other in self.view.others.iter() {
-            add(other, THEIR_ROOM);
+            add(other, self.tactics.their_room);
         }
         if order.ball_distance > 0.0 {
             obstacles.add(self.view.ball.position, order.ball_distance, from, target);
@@ -155,11 +146,15 @@ impl Driving<'_> {
             }
             let ahead = to.unit_or(Vector::new(1.0, 0.0));
             let gap = distance - diameter;
-            let closing = (2.0 * MEETING_BRAKING * easing * (gap - CONTACT_GAP).max(0.0)).sqrt();
+            let closing =
+                (2.0 * self.tactics.meeting_braking * easing * (gap - CONTACT_GAP).max(0.0)).sqrt();
             let leaving = other.velocity.dot(ahead);
             // In contact it is slower than the other, so that it does not push it along.
-            let followed =
-                if gap < CONTACT_GAP { leaving.min(FOLLOWING * leaving) } else { leaving };
+            let followed = if gap < CONTACT_GAP {
+                leaving.min(self.tactics.following_share * leaving)
+            } else {
+                leaving
+            };
             let allowed = (closing + followed).max(0.0);
             let toward = velocity.dot(ahead);
             if toward > allowed {
@@ -205,7 +200,8 @@ mod tests {
     fn command(scene: &Scene, order: &Order) -> [f32; 6] {
         let (view, pitch) = (scene.view(Team::Blue), pitch());
         let skill = Skill::new(1.0, 0.025);
-        let driving = Driving { config: &scene.config, pitch: &pitch, skill: &skill, view: &view };
+        let (config, tactics) = (&scene.config, &Tactics::DEFAULT);
+        let driving = Driving { config, pitch: &pitch, skill: &skill, tactics, view: &view };
         let phase =
             Phase { mode: Mode::Play, restart: Restart::Free, ours: false, kicks_next: false };
         let bounds = Bounds::new(phase, Part::Other, [view.ball.position; 2], 3.0, &pitch, 0.09);

@@ -25,10 +25,6 @@ const CLOSE: f32 = 0.6;
 const BLOCK_DISTANCE: f32 = 0.8;
 /// Time by which an opponent is earlier at the ball from which a robot without teammates guards its goal, s.
 const ALONE: f32 = 0.2;
-/// Cosine of the angle between the ways to the ball and on with it up to which a robot drives behind the
-/// ball, with time and without.
-const AIMED_WITH_TIME: f32 = -0.3;
-const AIMED: f32 = 0.6;
 
 /// Orders of all robots, by index.
 pub(crate) fn orders(s: &Situation, memory: &mut Memory) -> [Order; MAX_ROBOTS] {
@@ -123,9 +119,9 @@ fn ball_order(s: &Situation, memory: &mut Memory, robot: &Player) -> Order {
     let least = if robot.index == KEEPER {
         -1.0 // it never drives the ball toward its goal
     } else if rival > meeting.time + 0.5 {
-        AIMED_WITH_TIME
+        s.tactics.aimed_with_time - 1.0
     } else {
-        AIMED
+        s.tactics.aimed
     };
     approach::take(s, robot, meeting, if aim.dot(to_ball) > least { aim } else { to_ball })
 }

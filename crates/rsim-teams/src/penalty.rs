@@ -2,7 +2,7 @@
 
 use rsim_referee::Vector;
 
-use crate::aim::{self, Kick, MAX_BALL_SPEED};
+use crate::aim::{self, Kick};
 use crate::approach;
 use crate::kicking;
 use crate::lanes::{Lane, chance, margin};
@@ -87,8 +87,8 @@ fn corner(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Kick {
     let share = (1.0 - error).clamp(CORNER[1], CORNER[0]);
     let places = [share * half, -share * half].map(|y| Vector::new(goal.x, y));
     let margins = places.map(|end| {
-        let lane = Lane { start: ball, end, speed: MAX_BALL_SPEED, flies: 0.0 };
-        margin(&lane, &s.view.others, s.body())
+        let lane = Lane { start: ball, end, speed: s.tactics.ball_speed, flies: 0.0 };
+        margin(s.tactics, &lane, &s.view.others, s.body())
     });
     let is_known = memory.corner_kicker == Some(robot.index);
     // A keeper in the middle leaves both corners alike: then the seed decides.
@@ -102,10 +102,10 @@ fn corner(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Kick {
     (memory.corner_kicker, memory.corner) = (Some(robot.index), places[nth].y);
     Kick {
         at: places[nth],
-        speed: MAX_BALL_SPEED,
+        speed: s.tactics.ball_speed,
         chip: false,
         receiver: None,
-        value: chance(margins[nth]),
+        value: chance(s.tactics, margins[nth]),
     }
 }
 

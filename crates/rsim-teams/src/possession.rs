@@ -12,30 +12,10 @@ use crate::view::Player;
 
 /// Control steps after which a kick is chosen anew.
 const CHOICE_STEPS: i32 = 5;
-/// Value by which a new kick has to be better than the one chosen, as a factor.
-const HYSTERESIS: f32 = 1.2;
-/// Value of a kick that is made at once.
-const GOOD_VALUE: f32 = 0.3;
-/// Time after which any kick is made, and the same by the keeper, s.
-const PATIENCE: [f32; 2] = [1.8, 0.6];
-/// Distance of an opponent from the ball that hurries, m.
-const PRESSED: f32 = 0.45;
-/// Way that a robot dribbles, m; the rules allow 1.
-const DRIBBLE: f32 = 0.6;
+/// Time after which the keeper makes any kick, s.
+const KEEPER_PATIENCE: f32 = 0.6;
 /// Way at which it gives the ball up, m.
 const MAX_DRIBBLE: f32 = 0.8;
-/// Acceleration with the ball, m/s²: the dribbler holds it up to 2.6, and along its back-spin up to 5.6.
-const ACCELERATION: f32 = 2.5;
-/// Deceleration with the ball, m/s².
-const DECELERATION: f32 = 3.2;
-/// Acceleration of the ball to the side, in a turn, m/s².
-const SIDE_ACCELERATION: f32 = 1.8;
-/// Angular acceleration with the ball, rad/s²: 1.4 m/s² at the ball.
-const TURN_ACCELERATION: f32 = 15.0;
-/// Speed with the ball, m/s.
-const SPEED: f32 = 1.0;
-/// Angular velocity with the ball, rad/s: TIGERs turn at 5.
-const TURNING: f32 = 5.0;
 /// Time after which a robot in a crowd kicks high where it faces, s: without a pass that it aims at, and with.
 const STUCK: [f32; 2] = [0.7, 1.2];
 /// Speed of the ball in such a crowd, m/s.
@@ -96,7 +76,7 @@ pub(crate) fn chosen(
     }
     let kick = choose();
     let is_same = is_known && memory.aim_receiver == kick.receiver && memory.aim_chip == kick.chip;
-    if is_known && !is_same && kick.value < HYSTERESIS * memory.aim_value {
+    if is_known && !is_same && kick.value < s.tactics.kick_hysteresis * memory.aim_value {
         memory.aim_value *= 0.9; // it fades, so that it is not kept forever
         return remembered(memory);
     }
@@ -132,17 +112,17 @@ pub(crate) fn play(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Or
     let chosen = chosen(s, memory, robot.index, || aim::best_kick(s, ball, robot.index));
     let kick = aim::with_error(s, chosen, ball, robot.index);
     let waited = memory.carry_steps as f32 * s.config.time_step;
-    let is_pressed = s.nearest_opponent(ball) < PRESSED;
+    let is_pressed = s.nearest_opponent(ball) < s.tactics.pressed_distance;
     let hurry = if is_pressed { 0.5 } else { 1.0 };
     let is_keeper = robot.index == KEEPER;
-    let patience = PATIENCE[usize::from(is_keeper)];
-    let is_good = kick.value >= GOOD_VALUE * hurry * (1.0 - waited / patience);
+    let patience = if is_keeper { KEEPER_PATIENCE } else { s.tactics.patience };
+    let is_good = kick.value >= s.tactics.good_value * hurry * (1.0 - waited / patience);
     let way = ball.distance(memory.carry_start);
     let facing = kick.at - ball;
     let mut order = turn(s, robot, facing);
     // A robot that came fast brakes as hard as it has to: then the ball rolls away from it.
     let left = (MAX_DRIBBLE - way).max(0.05);
-    let limit = if is_good { DECELERATION } else { ACCELERATION };
+    let limit = if is_good { s.tactics.carry_deceleration } else { s.tactics.carry_acceleration };
     order.acceleration = limit.max(robot.velocity.dot(robot.velocity) / (2.0 * left));
     if is_too_far(s, memory, robot) {
         return give_up(robot, order);
@@ -166,17 +146,17 @@ pub(crate) fn play(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Or
 pub(crate) fn turning(s: &Situation, robot: &Player) -> f32 {
     // w² r + w v is the acceleration of the ball in the turn.
     let (r, v) = (s.config.mouth(), robot.velocity.length());
-    let held = ((v * v + 4.0 * r * SIDE_ACCELERATION).sqrt() - v) / (2.0 * r);
-    held.min(TURNING * s.skill.turning)
+    let held = ((v * v + 4.0 * r * s.tactics.carry_side_acceleration).sqrt() - v) / (2.0 * r);
+    held.min(s.tactics.carry_turning * s.skill.turning)
 }
 
 /// Order of a robot that turns on the spot with the ball.
 pub(crate) fn turn(s: &Situation, robot: &Player, facing: Vector) -> Order {
     Order {
-        max_speed: SPEED,
-        acceleration: ACCELERATION,
+        max_speed: s.tactics.carry_speed,
+        acceleration: s.tactics.carry_acceleration,
         turning: turning(s, robot),
-        turn_acceleration: TURN_ACCELERATION,
+        turn_acceleration: s.tactics.carry_turn_acceleration,
         dribbler: 1.0,
         ball_distance: 0.0,
         straight: true,
@@ -202,13 +182,14 @@ fn dribble_target(s: &Situation, memory: &TeamMemory, robot: &Player) -> Vector 
         }
     }
     let wanted = robot.position + direction.unit_or(goal) * 0.4;
-    let from_start = (wanted - memory.carry_start).limited(DRIBBLE);
+    let from_start = (wanted - memory.carry_start).limited(s.tactics.dribble_way);
     memory.carry_start + from_start
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tactics::Tactics;
     use crate::testing::{PLAY, Scene};
 
     /// A robot with the ball in its mouth, which it has taken at a distance.
@@ -243,7 +224,7 @@ mod tests {
         let fast = at(&scene);
         assert!(resting > 3.0 && fast < 1.0, "{resting} {fast}");
         let held = fast * fast * 0.093 + fast * 2.0;
-        assert!((held - SIDE_ACCELERATION).abs() < 1e-3);
+        assert!((held - Tactics::DEFAULT.carry_side_acceleration).abs() < 1e-3);
     }
 
     #[test]

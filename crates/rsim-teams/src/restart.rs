@@ -2,7 +2,7 @@
 
 use rsim_referee::Vector;
 
-use crate::aim::{self, Kick, MAX_BALL_SPEED};
+use crate::aim::{self, Kick};
 use crate::kicking;
 use crate::memory::TeamMemory;
 use crate::order::Order;
@@ -91,7 +91,7 @@ pub(crate) fn wait_for_kick(s: &Situation) -> Order {
         _ => 0.75,
     };
     let target = s.place - direction * distance;
-    Order { ball_distance: 0.3, ..Order::to(target, direction * MAX_BALL_SPEED) }
+    Order { ball_distance: 0.3, ..Order::to(target, direction * s.tactics.ball_speed) }
 }
 
 #[cfg(test)]

@@ -8,12 +8,6 @@ use crate::phase::{Mode, Restart};
 use crate::situation::Situation;
 use crate::support::RUNNER;
 
-/// Time by which another robot has to be earlier at the ball to take over, s.
-const LOYALTY: f32 = 0.25;
-/// The same against the receiver of a pass, s.
-const RECEIVER_LOYALTY: f32 = 0.5;
-/// Time by which the opponents have to be earlier or later until a team changes its attitude, s.
-const ATTITUDE: f32 = 0.2;
 /// Speed below which a ball is no pass, m/s.
 const PASS_SPEED: f32 = 0.4;
 
@@ -37,9 +31,9 @@ pub(crate) fn taker(s: &Situation, memory: &TeamMemory) -> Option<usize> {
             s.own.of(index)?.time
         };
         let bonus = if memory.receiver == Some(index) {
-            RECEIVER_LOYALTY
+            s.tactics.receiver_loyalty
         } else if memory.taker == Some(index) {
-            LOYALTY
+            s.tactics.taker_loyalty
         } else {
             0.0
         };
@@ -67,7 +61,7 @@ pub(crate) fn follow(s: &Situation, memory: &mut TeamMemory) {
     };
     let own = time(s.own.first(|index| Some(index) != s.barred));
     let others = time(s.others.first(|_| true));
-    let lead = if memory.attacks { ATTITUDE } else { -ATTITUDE };
+    let lead = if memory.attacks { s.tactics.attitude_time } else { -s.tactics.attitude_time };
     memory.attacks = match s.phase.mode {
         Mode::Play => memory.carrier.is_some() || memory.receiver.is_some() || own < others + lead,
         _ => s.phase.ours,

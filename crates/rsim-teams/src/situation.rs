@@ -9,18 +9,18 @@ use crate::pitch::Pitch;
 use crate::random::Random;
 use crate::rolling::BallPath;
 use crate::skill::Skill;
+use crate::tactics::Tactics;
 use crate::view::{Player, View};
 
 /// Index of the keeper in its team.
 pub(crate) const KEEPER: usize = 0;
-/// Speed of opponents, as it is assumed.
-const THEIR_PACE: Pace = Pace { speed: 3.0, acceleration: 4.0 };
 
 /// Knowledge of a team in a step.
 pub(crate) struct Situation<'a> {
     pub(crate) config: &'a TeamConfig,
     pub(crate) pitch: &'a Pitch,
     pub(crate) skill: &'a Skill,
+    pub(crate) tactics: &'a Tactics,
     pub(crate) view: &'a View,
     pub(crate) phase: Phase,
     /// Time since the referee's command, s.
@@ -47,12 +47,17 @@ impl<'a> Situation<'a> {
     /// Finds the meetings with a ball on its path.
     pub(crate) fn meet(&mut self) {
         let reach = self.config.robot.radius;
-        let pace = Pace {
-            speed: self.skill.speed * self.config.robot.max_speed,
-            acceleration: 0.85 * self.config.robot.max_acceleration,
-        };
+        let pace =
+            Pace { speed: self.speed(), acceleration: 0.85 * self.config.robot.max_acceleration };
+        let theirs =
+            Pace { speed: self.tactics.their_speed, acceleration: self.tactics.their_acceleration };
         self.own = Meetings::new(&self.view.own, &self.path, self.pitch, pace, reach);
-        self.others = Meetings::new(&self.view.others, &self.path, self.pitch, THEIR_PACE, reach);
+        self.others = Meetings::new(&self.view.others, &self.path, self.pitch, theirs, reach);
+    }
+
+    /// Greatest speed of the own robots, m/s.
+    pub(crate) fn speed(&self) -> f32 {
+        self.skill.speed * self.tactics.speed_share * self.config.robot.max_speed
     }
 
     /// Position of the ball, m.

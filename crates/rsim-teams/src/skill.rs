@@ -7,12 +7,12 @@ pub(crate) struct Skill {
     pub(crate) reaction_steps: i32,
     /// Standard deviation of the direction of a kick, rad.
     pub(crate) aim_error: f32,
-    /// Share of the robot's maximum speed that it uses, and of its acceleration when it gets faster.
+    /// Share of the speed of a skilled team that it uses, and of its acceleration when it gets faster.
     pub(crate) speed: f32,
     /// Speed and acceleration of turns, as a share of those of a skilled team.
     pub(crate) turning: f32,
-    /// Likelihood from which a pass is tried.
-    pub(crate) pass_threshold: f32,
+    /// Likelihood from which a pass is tried, as a multiple of that of a skilled team.
+    pub(crate) caution: f32,
 }
 
 /// Longest reaction time, s: more than twice that of people.
@@ -21,12 +21,12 @@ const MAX_REACTION: f32 = 0.5;
 const MAX_AIM_ERROR: f32 = 0.2;
 /// Smallest one, rad: half a degree. It also keeps two sides from playing the same rally forever.
 const MIN_AIM_ERROR: f32 = 0.01;
-/// Smallest share of the maximum speed.
-const MIN_SPEED: f32 = 0.3;
+/// Smallest share of the speed of a skilled team.
+const MIN_SPEED: f32 = 0.353;
 /// Smallest share of the speed of turns.
 const MIN_TURNING: f32 = 0.4;
-/// Share of the maximum speed that a skilled team uses: what remains is for corrections.
-const MAX_SPEED: f32 = 0.85;
+/// Greatest caution.
+const MAX_CAUTION: f32 = 2.0;
 
 impl Skill {
     /// Limits of a skill from 0 to 1. All of them change evenly with it.
@@ -37,9 +37,9 @@ impl Skill {
         Self {
             reaction_steps: (between(MAX_REACTION, 0.0) / time_step).round().max(1.0) as i32,
             aim_error: between(MAX_AIM_ERROR, MIN_AIM_ERROR),
-            speed: between(MIN_SPEED, MAX_SPEED),
+            speed: between(MIN_SPEED, 1.0),
             turning: between(MIN_TURNING, 1.0),
-            pass_threshold: between(0.9, 0.45),
+            caution: between(MAX_CAUTION, 1.0),
         }
     }
 }

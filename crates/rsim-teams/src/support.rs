@@ -2,7 +2,7 @@
 
 use rsim_referee::Vector;
 
-use crate::aim::{MAX_BALL_SPEED, value_at};
+use crate::aim::value_at;
 use crate::lanes::{Lane, chance, margin};
 use crate::memory::RobotMemory;
 use crate::pitch::Area;
@@ -14,16 +14,6 @@ use crate::view::Player;
 const SEARCH_STEPS: i32 = 8;
 /// New places that are tried.
 const TRIALS: u32 = 5;
-/// Share of the ball's maximum speed that a pass has.
-const PASS_SPEED: f32 = 0.7;
-/// Distance from teammates that is wanted, m.
-const TEAMMATE_DISTANCE: f32 = 1.5;
-/// Least and largest distance from the ball that are wanted, m.
-const BALL_DISTANCES: [f32; 2] = [1.4, 4.0];
-/// Distance from opponents that is wanted, m.
-const FREE_DISTANCE: f32 = 0.7;
-/// Value lost for a m of way.
-const WAY_COST: f32 = 0.05;
 /// Distance from the opponents' area, m.
 const AREA_ROOM: f32 = 0.15;
 /// Distance from the lines, m.
@@ -48,8 +38,8 @@ pub(crate) fn spot(
             teammates.filter(|(teammate, _)| *teammate != index && runners >> teammate & 1 == 1);
         let nearest = teammates
             .map(|(_, teammate)| teammate.spot.distance(place))
-            .fold(TEAMMATE_DISTANCE, f32::min);
-        value_of(s, robot, place) - 0.5 * (1.0 - nearest / TEAMMATE_DISTANCE)
+            .fold(s.tactics.teammate_distance, f32::min);
+        value_of(s, robot, place) - 0.5 * (1.0 - nearest / s.tactics.teammate_distance)
     };
     let start = if is_new { robot.position } else { robots[index].spot };
     let mut best = (start, value(legal(s, start)) + 0.02);
@@ -93,15 +83,22 @@ fn legal(s: &Situation, place: Vector) -> Vector {
 fn value_of(s: &Situation, robot: &Player, place: Vector) -> f32 {
     let ball = s.ball();
     let distance = place.distance(ball);
-    let lane = Lane { start: ball, end: place, speed: PASS_SPEED * MAX_BALL_SPEED, flies: 0.0 };
-    let arrives = chance(margin(&lane, &s.view.others, s.body()));
-    let free = (s.nearest_opponent(place) / FREE_DISTANCE).min(1.0);
-    let off = (BALL_DISTANCES[0] - distance).max(distance - BALL_DISTANCES[1]).max(0.0);
+    let lane = Lane {
+        start: ball,
+        end: place,
+        speed: s.tactics.lane_pass_share * s.tactics.ball_speed,
+        flies: 0.0,
+    };
+    let arrives = chance(s.tactics, margin(s.tactics, &lane, &s.view.others, s.body()));
+    let free = (s.nearest_opponent(place) / s.tactics.free_distance).min(1.0);
+    let off = (s.tactics.ball_distance_least - distance)
+        .max(distance - s.tactics.ball_distance_most)
+        .max(0.0);
     (0.3 + arrives)
-        * (0.3 + value_at(s, place, distance / (PASS_SPEED * MAX_BALL_SPEED)))
+        * (0.3 + value_at(s, place, distance / (s.tactics.lane_pass_share * s.tactics.ball_speed)))
         * (0.5 + 0.5 * free)
         - 0.15 * off
-        - WAY_COST * place.distance(robot.position)
+        - s.tactics.way_cost * place.distance(robot.position)
 }
 
 #[cfg(test)]

@@ -18,6 +18,7 @@ use crate::roles;
 use crate::rolling::BallPath;
 use crate::situation::{KEEPER, Situation};
 use crate::skill::Skill;
+use crate::tactics::Tactics;
 use crate::view::{Player, View};
 
 /// Names of the columns of a command: velocity forward and to the left (m/s), angular velocity (rad/s), speed
@@ -57,13 +58,20 @@ impl ScriptedTeam {
         Memory::columns(self.robots())
     }
 
-    /// Sets the memory of a team before its first step.
+    /// Sets the memory of a team before its first step. `tactics` has the numbers by which it plays, in the order
+    /// of [`TACTICS`](crate::TACTICS); `None` for those that were set by hand.
     ///
     /// # Errors
-    /// A memory of another length.
-    pub fn begin(&self, memory: &mut [f32], seed: u32) -> Result<(), TeamsError> {
+    /// A memory or tactics of another length, or a number out of its range.
+    pub fn begin(
+        &self,
+        memory: &mut [f32],
+        seed: u32,
+        tactics: Option<&[f32]>,
+    ) -> Result<(), TeamsError> {
         check_size("memory", self.memory_columns().len(), memory.len())?;
-        Memory::new(seed).write(memory, self.robots());
+        let tactics = tactics.map_or(Ok(Tactics::DEFAULT), Tactics::read)?;
+        Memory { tactics, ..Memory::new(seed) }.write(memory, self.robots());
         Ok(())
     }
 
@@ -113,18 +121,19 @@ impl ScriptedTeam {
         if phase.mode == Mode::Halt {
             return;
         }
-        let situation = self.situation(view, game, team, phase, memory);
+        let tactics = memory.tactics;
+        let situation = self.situation(view, game, team, phase, memory, &tactics);
         possession::follow(&situation, &mut memory.team);
         roles::follow(&situation, &mut memory.team);
         memory.team.taker = roles::taker(&situation, &memory.team);
         let orders = orders(&situation, memory);
-        let driving =
-            Driving { config: &self.config, pitch: &self.pitch, skill: &self.skill, view };
+        let Situation { config, pitch, skill, tactics, .. } = situation;
+        let driving = Driving { config, pitch, skill, tactics, view };
         for player in view.own.iter() {
             let part = part_of(&situation, player, memory.team.taker);
             let ends = [view.ball.position, situation.place];
             let radius = self.config.robot.radius;
-            let max_speed = self.skill.speed * self.config.robot.max_speed;
+            let max_speed = situation.speed();
             let mut bounds = Bounds::new(phase, part, ends, max_speed, &self.pitch, radius);
             if player.index == KEEPER {
                 bounds.own_area = None;
@@ -148,6 +157,7 @@ impl ScriptedTeam {
         team: Team,
         phase: Phase,
         memory: &Memory,
+        tactics: &'a Tactics,
     ) -> Situation<'a> {
         let first = if team == Team::Blue { 0 } else { self.config.layout.team_size(Team::Blue) };
         let size = self.config.layout.team_size(team);
@@ -159,6 +169,7 @@ impl ScriptedTeam {
             config: &self.config,
             pitch: &self.pitch,
             skill: &self.skill,
+            tactics,
             view,
             phase,
             command_time: game.command_steps as f32 * self.config.time_step,
@@ -224,7 +235,7 @@ mod tests {
     fn begun(scene: &Scene, seed: u32) -> Vec<f32> {
         let side = ScriptedTeam::new(&scene.config).expect("valid numbers");
         let mut memory = vec![0.0; side.memory_columns().len()];
-        side.begin(&mut memory, seed).expect("a memory");
+        side.begin(&mut memory, seed, None).expect("a memory");
         memory
     }
 
@@ -285,6 +296,6 @@ mod tests {
         assert_eq!(wrong, Err(TeamsError::Size { name: "commands", expected: 18, got: 17 }));
         let short = act(&scene.row, &mut memory[1..].to_vec(), 18);
         assert!(short.is_err());
-        assert!(side.begin(&mut memory[1..].to_vec(), 5).is_err());
+        assert!(side.begin(&mut memory[1..].to_vec(), 5, None).is_err());
     }
 }

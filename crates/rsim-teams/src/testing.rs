@@ -11,6 +11,7 @@ use crate::random::Random;
 use crate::rolling::BallPath;
 use crate::situation::Situation;
 use crate::skill::Skill;
+use crate::tactics::Tactics;
 use crate::view::View;
 
 /// The ball in play.
@@ -153,6 +154,7 @@ impl Scene {
             config: &self.config,
             pitch: &pitch,
             skill: &skill,
+            tactics: &Tactics::DEFAULT,
             view: &view,
             phase,
             command_time: 2.0,

@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use rsim_match::{Controls, Decision, Match, Network};
+use rsim_match::{Controls, Decision, Match, PolicyFile};
 use rsim_referee::Team;
 use rsim_referee::codes::{COMMANDS, Stage};
 use rsim_referee::events::{Event, EventKind};
@@ -127,8 +127,8 @@ impl Session {
     ) -> Result<i32, Failure> {
         let team = *Team::BOTH.get(team).ok_or("team: expected 0 or 1")?;
         if length > 0 {
-            let network = Network::read(self.given(length)?)?;
-            self.one(handle)?.set_network(team, network)?;
+            let policy = PolicyFile::read(self.given(length)?)?;
+            self.one(handle)?.set_policy(team, policy)?;
         } else if skill < 0.0 {
             self.one(handle)?.set_idle(team);
         } else {

@@ -15,6 +15,7 @@ from rsoccer.commands.cooperation import Cooperation
 from rsoccer.commands.distill import CommandDistillArgs, Distill
 from rsoccer.commands.drive import Drive
 from rsoccer.commands.evaluate import Evaluate
+from rsoccer.commands.evolve import CommandEvolveArgs, Evolve
 from rsoccer.commands.export import Export
 from rsoccer.commands.identify import Identify
 from rsoccer.commands.imports import imported
@@ -29,6 +30,7 @@ from rsoccer.commands.what_if import WhatIf
 from rsoccer.plugins import import_modules
 from rsoccer.train import Args
 from rsoccer.train.distillation import DistillArgs
+from rsoccer.train.evolution import EvolveArgs
 
 
 def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at run time)
@@ -46,10 +48,13 @@ def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at
     default = _train_defaults(words)
     task = _last_value(words, "--task") or DistillArgs.task
     distill_default = Distill(CommandDistillArgs.for_task(task))
+    task = _last_value(words, "--task") or EvolveArgs.task
+    evolve_default = Evolve(CommandEvolveArgs.for_task(task))
     return (
         Annotated[List, subcommand("list")]
         | Annotated[Train, subcommand("train", default=default)]
         | Annotated[Distill, subcommand("distill", default=distill_default)]
+        | Annotated[Evolve, subcommand("evolve", default=evolve_default)]
         | Annotated[Evaluate, subcommand("evaluate")]
         | Annotated[Tournament, subcommand("tournament")]
         | Annotated[Cooperation, subcommand("cooperation")]

@@ -38,6 +38,7 @@ from rsoccer.registry import as_task, make_task
 from rsoccer.task import Task
 
 if TYPE_CHECKING:
+    from rsoccer.policies.evolved import Evolved
     from rsoccer.policies.network import Network
     from rsoccer.policies.onnx_policy import OnnxPolicy
 
@@ -190,7 +191,7 @@ def _text(policy: str | os.PathLike[str]) -> str:
     return os.fspath(policy)
 
 
-def _make_best(task: Task, detail: str | None) -> Network:
+def _make_best(task: Task, detail: str | None) -> Network | Evolved:
     """The trained policy of a task."""
     from rsoccer.policies.trained import load_best
 
@@ -208,7 +209,7 @@ def file_of(policy: str) -> Path | None:
     return Path(_split_mode(policy)[0])
 
 
-def _load(text: str, task: Task | None = None) -> Network | OnnxPolicy:
+def _load(text: str, task: Task | None = None) -> Network | OnnxPolicy | Evolved:
     """A trained policy from its path, which a mode may follow."""
     path, mode = _split_mode(text)
     if not (path.endswith(SUFFIXES) or os.path.isfile(path)):
@@ -218,11 +219,9 @@ def _load(text: str, task: Task | None = None) -> Network | OnnxPolicy:
         from rsoccer.policies.onnx_policy import OnnxPolicy
 
         return OnnxPolicy.load(path, mode, task)
-    from rsoccer.policies.network import Network
-    from rsoccer.policies.trained import with_skills
+    from rsoccer.policies.trained import load_file
 
-    network = Network.load(path, mode)
-    return network if task is None else with_skills(network, task)
+    return load_file(Path(path), mode, task)
 
 
 def _expected(path: str) -> str:

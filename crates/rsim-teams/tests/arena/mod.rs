@@ -91,7 +91,7 @@ impl Arena {
         let sides = skills.map(|skill| side(&config, skill));
         let mut memories = [(); 2].map(|()| vec![0.0; sides[0].memory_columns().len()]);
         for (nth, (side, memory)) in (0..).zip(sides.iter().zip(&mut memories)) {
-            side.begin(memory, 2 * seed + nth).expect("a memory");
+            side.begin(memory, 2 * seed + nth, None).expect("a memory");
         }
         Self {
             before: row.clone(),

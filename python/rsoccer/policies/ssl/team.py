@@ -1,14 +1,18 @@
 """The `scripted` policy for SSL: a whole team that plays matches under a referee."""
 
+from __future__ import annotations
+
 from typing import Final
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from rsoccer._core import GAME_COLUMNS, Referee, ScriptedTeam
+from rsoccer._core import GAME_COLUMNS, TACTICS, Referee, ScriptedTeam
 from rsoccer.arrays import Floats
 from rsoccer.game import BLUE, YELLOW, Command
-from rsoccer.policies.base import MatchState, Memory, Observes, Policy, PolicyInput
+from rsoccer.policies.base import MatchState, Memory, Observes, PolicyInput
 from rsoccer.policies.ssl.robot_control import DRIBBLER, KICK, TURN, require_ssl
+from rsoccer.policies.tactics import Tactic, TacticalPolicy, checked, rows_of
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 from rsoccer.tasks.ssl import Ssl
@@ -29,7 +33,7 @@ def _free_play() -> Floats:
 _FREE_PLAY: Final = _free_play()
 
 
-class ScriptedSsl(Policy):
+class ScriptedSsl(TacticalPolicy):
     """A team script for SSL: keeper, defenders who mark, attacker, receivers; 1 to 11 robots.
 
     It obeys the referee, passes flat and by chips where that is likelier to lead to a goal than a
@@ -37,34 +41,46 @@ class ScriptedSsl(Policy):
     followed the script too.
     """
 
+    TACTICS = tuple(Tactic(*numbers) for numbers in TACTICS)
     observes: Observes = "view"
     forecasts = True
 
-    def __init__(self, task: Task, skill: float = 1.0) -> None:
+    def __init__(self, task: Task, skill: float = 1.0, tactics: ArrayLike | None = None) -> None:
         """Prepare the script for a task.
 
         Args:
             task: an SSL task.
             skill: 0 to 1; faster decisions and robots, better aim.
+            tactics: numbers by which it plays, (tactics,) in the order of `TACTICS`, or
+                (n, tactics), one row for each of n matches at once; None for those that were set by
+                hand.
 
         Raises:
-            ValueError: another task, or a skill out of range.
+            ValueError: another task, a skill out of range, or tactics of another shape or out of
+                their ranges.
         """
         ssl = require_ssl("scripted", task)
         if not 0.0 <= skill <= 1.0:
             raise ValueError(f"scripted: expected a skill from 0 to 1, got {skill}")
+        self._tactics = None if tactics is None else checked(tactics, self.TACTICS)
         super().__init__(task)
         self._task: Ssl = ssl
         self._team = ScriptedTeam(ssl.config, skill)
         self._n_blue = ssl.n_blue
 
+    @classmethod
+    def with_tactics(cls, task: Task, tactics: Floats) -> ScriptedSsl:
+        """Return the script with other numbers, see `TacticalPolicy.with_tactics`."""
+        return cls(task, tactics=tactics)
+
     def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> Memory:
         """Return the memories of both teams, `blue` and `yellow`, each (n, memory)."""
         memory = {}
+        tactics = None if self._tactics is None else rows_of(self._tactics, shape[0])
         for name in ("blue", "yellow"):
             rows = np.zeros((shape[0], self._team.memory_size), np.float32)
             seeds = (rng.uniform(0.0, 1.0) * np.float32(_SEEDS)).astype(np.int64)
-            self._team.begin(rows, seeds.tolist())
+            self._team.begin(rows, seeds.tolist(), tactics)
             memory[name] = rows
         return memory
 

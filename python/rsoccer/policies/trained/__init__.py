@@ -1,7 +1,8 @@
 """Trained policies in the package: `best` plays the one of the task.
 
-The files of this folder are policy files (`rsoccer.policies.policy_file`), one for each task that
-has one, `<task>.safetensors`. Some tasks have a second one, `<task>.robust.safetensors`, for late
+The files of this folder are policy files, networks (`rsoccer.policies.policy_file`) or tactics of
+scripts (`rsoccer.policies.evolved`), one for each task that has one,
+`<task>.safetensors`. Some tasks have a second one, `<task>.robust.safetensors`, for late
 and noisy senses and varied numbers: `best:robust` plays it. Their metadata say
 how they were made and what they score. `tools.ship_policy` writes them.
 """
@@ -12,6 +13,7 @@ from pathlib import Path
 from typing import Final
 
 from rsoccer.policies import policy_file, training_conditions
+from rsoccer.policies.evolved import Evolved, is_tactics
 from rsoccer.policies.network import MODES, Network
 from rsoccer.policies.other_task import fitted
 from rsoccer.policies.policy_file import Score
@@ -58,7 +60,7 @@ def list_trained(variant: str | None = None) -> dict[str, Path]:
     return {task: path for task, path in found.items() if "." not in task}
 
 
-def load_best(task: Task, detail: str | None = None) -> Network:
+def load_best(task: Task, detail: str | None = None) -> Network | Evolved:
     """Load the trained policy of a task.
 
     Args:
@@ -68,7 +70,7 @@ def load_best(task: Task, detail: str | None = None) -> Network:
             training.
 
     Returns:
-        The network of the task's own file, of that of its skills in `SKILLS`, or of `TEAM_TASK`
+        The policy of the task's own file, of that of its skills in `SKILLS`, or of `TEAM_TASK`
         where its observations are equal.
 
     Raises:
@@ -81,13 +83,12 @@ def load_best(task: Task, detail: str | None = None) -> Network:
     skills = SKILLS.get(task.name)
     source = task.name if task.name in files else skills
     if source in files:
-        network = Network.load(files[source], mode)
         try:
-            network = with_skills(network, task)
-            network.check_fits(task, task.layout.size)
+            policy = load_file(files[source], mode, task)
+            policy.check_fits(task, task.layout.size)
         except ValueError as error:
             raise ValueError(f"{name}: {error}") from error
-        return network
+        return policy
     names = list(files)
     if TEAM_TASK in files:
         network = Network.load(files[TEAM_TASK], mode)
@@ -99,6 +100,55 @@ def load_best(task: Task, detail: str | None = None) -> Network:
         f"{name}: expected a task with {kind} policy, got {task.name}; "
         f"there are policies for {', '.join(names) or 'no task'}"
     )
+
+
+def load_best_network(task: Task, detail: str | None = None) -> Network:
+    """Load the trained policy of a task that is a network.
+
+    Args:
+        task: the task that is played.
+        detail: as for `load_best`.
+
+    Raises:
+        ValueError: see `load_best`, or a policy that is no network.
+    """
+    policy = load_best(task, detail)
+    if not isinstance(policy, Network):
+        raise ValueError(f"{BEST}: expected a network for {task.name}, got tactics of a script")
+    return policy
+
+
+def load_file(path: Path, mode: str | None = None, task: Task | None = None) -> Network | Evolved:
+    """Load a policy file of either kind.
+
+    Args:
+        path: the file.
+        mode: "sample" or "mean"; None is as in training, and all that tactics have.
+        task: the task that is played; None for that of the training.
+
+    Returns:
+        The policy; a network for a task in `SKILLS` has the form that plays it.
+
+    Raises:
+        FileNotFoundError: no such file.
+        ValueError: the file is not a usable policy file, or mode or task do not fit it.
+    """
+    if not path.exists():
+        raise FileNotFoundError(f"policy: the file {path} does not exist")
+    if _has_tactics(path):
+        if mode is not None:
+            raise ValueError(f"mode: expected none, as {path.name} has tactics, got {mode!r}")
+        return Evolved.load(path, task)
+    network = Network.load(path, mode)
+    return network if task is None else with_skills(network, task)
+
+
+def _has_tactics(path: Path) -> bool:
+    """Whether a file has tactics; errors of other files are told by their reader."""
+    try:
+        return is_tactics(policy_file.read_file(path)[1])
+    except ValueError:
+        return False
 
 
 def with_skills(network: Network, task: Task) -> Network:

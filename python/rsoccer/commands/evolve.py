@@ -1,0 +1,33 @@
+"""`rsoccer evolve`: `EvolveArgs` with the options that tyro cannot parse by itself."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Annotated, Any
+
+from tyro.conf import arg
+
+from rsoccer.commands.output import write
+from rsoccer.commands.task_options import TASK_OPTIONS
+from rsoccer.train.evolution import EvolveArgs, evolve
+
+
+@dataclass(frozen=True)
+class CommandEvolveArgs(EvolveArgs):
+    """Settings as the command line takes them."""
+
+    task_options: Annotated[Mapping[str, Any], TASK_OPTIONS] = field(default_factory=dict)
+    """options of the task (`rsoccer list` prints them), such as half_seconds=60"""
+
+
+@dataclass(frozen=True)
+class Evolve:
+    """Find better tactics of the scripted SSL side by playing matches."""
+
+    args: Annotated[CommandEvolveArgs, arg(name="")]
+    """settings of the run"""
+
+    def run(self) -> None:
+        """Evolve, and print the path of the policy file."""
+        write(f"policy: {evolve(self.args)}")

@@ -1,0 +1,98 @@
+"""Settings of an evolution."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Annotated, Any, Final, Self
+
+from rsoccer.policies.evolved import SCRIPTS
+from rsoccer.sources import make_sensing
+from rsoccer.train.setting_types import Count, Natural, Positive, Range, convert_fields, expect
+
+Momentum = Annotated[float, Range("at least 0 and below 1", 0.0, 0.999)]
+"""Share of the last step."""
+
+_RECOMMENDED: Final[Mapping[str, Mapping[str, Any]]] = {
+    "SSLMatch-v0": {
+        "task_options": {"half_seconds": 60.0},
+        "opponents": ("scripted:0.5", "scripted"),
+    },
+}
+"""Values of settings by name, by the name of the task: whole matches of two minutes."""
+
+
+# The docstrings of the fields are the help of `rsoccer evolve`.
+@dataclass(frozen=True)
+class EvolveArgs:
+    """Settings of an evolution.
+
+    Raises:
+        ImportError: a module of `sensing` does not exist.
+        ValueError: a value of another type or outside its range.
+    """
+
+    task: str = "SSLMatch-v0"
+    """registered SSL task"""
+    script: str = "scripted"
+    """script whose numbers change: scripted, the whole SSL team"""
+    first: str | None = None
+    """file of tactics to begin with, or best; None begins with those that were set by hand"""
+    out: Path = Path("out/evolve")
+    """folder for the policy, the log and the state from which the run resumes"""
+    task_options: Mapping[str, Any] = field(default_factory=dict)
+    """options of the task (`rsoccer list` prints them), such as half_seconds=60"""
+    opponents: tuple[str, ...] = ()
+    """policies of the other team, each in an equal share of the matches; none where there is no
+    other team, or for the task's own"""
+    generations: Count = 15
+    """steps of the tactics"""
+    matches: Count = 100
+    """matches of a generation against each opponent from each side, an even number: one for each
+    draw and one for its mirror image"""
+    spread: Positive = 0.25
+    """standard deviation of the logarithm of a number around the present one"""
+    step_size: Positive = 4.0
+    """step in units of `spread`, for a score that grows by its standard deviation with one"""
+    momentum: Momentum = 0.6
+    """share of the last step in the next one"""
+    sensing: str | None = None
+    """senses of the robots: a preset's name, also with numbers as in "rc2021, delay=0.1", a .json
+    file, or module:name"""
+    seed: Natural = 0
+    """random seed; equal settings give equal runs"""
+    threads: Count = 1
+    """threads of the simulator"""
+    resume: bool = False
+    """go on with the run in `out`, up to `generations`"""
+
+    def __post_init__(self) -> None:
+        """Convert and check the values."""
+        convert_fields(self)
+        expect("matches", self.matches % 2 == 0, "an even number", self.matches)
+        expect("script", self.script in SCRIPTS, f"one of {tuple(SCRIPTS)}", self.script)
+        make_sensing(self.sensing)
+
+    @classmethod
+    def for_task(cls, task: str, **changes: Any) -> Self:  # noqa: ANN401  (any field)
+        """Return the recommended settings for a task, with changes.
+
+        Args:
+            task: a registered name.
+            **changes: values by field.
+
+        Raises:
+            TypeError: a setting that does not exist.
+            ValueError: a value that the settings refuse.
+
+        Example:
+            >>> EvolveArgs.for_task("SSLMatch-v0").opponents
+            ('scripted:0.5', 'scripted')
+        """
+        return cls(task, **{**_RECOMMENDED.get(task, {}), **changes})
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the settings as JSON values by name."""
+        values = {name: list(v) if isinstance(v, tuple) else v for name, v in vars(self).items()}
+        return {**values, "out": str(self.out), "task_options": dict(self.task_options)}

@@ -1,0 +1,96 @@
+"""An evolution: its policy, its log, how it resumes, and what it refuses."""
+
+from __future__ import annotations
+
+import csv
+import json
+import shlex
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import rsoccer
+from rsoccer import cli
+from rsoccer.commands import evolve as evolve_command
+from rsoccer.policies.evolved import Evolved
+from rsoccer.policies.ssl.team import ScriptedSsl
+from rsoccer.train.evolution import EvolveArgs, evolve
+
+OPTIONS = {"half_seconds": 2.0, "halves": 1, "n_blue": 2, "n_yellow": 2}
+
+
+def args(folder: Path, **changes: Any) -> EvolveArgs:  # noqa: ANN401  (any field)
+    settings = {"task_options": OPTIONS, "generations": 2, "matches": 4, "opponents": ("zero",)}
+    return EvolveArgs("SSLMatch-v0", out=folder, **{**settings, **changes})
+
+
+def rows(folder: Path) -> list[dict[str, str]]:
+    with (folder / "progress.csv").open() as file:
+        return list(csv.DictReader(file))
+
+
+def test_a_policy_is_written_that_says_how_it_was_made(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    given = args(tmp_path / "run", sensing="rc2021", step_size=20.0, seed=3)
+    path = evolve(given)
+    policy = Evolved.load(path)
+    assert (policy.task_name, policy.task_options) == ("SSLMatch-v0", OPTIONS)
+    assert policy.sensing == rsoccer.Sensing("rc2021")
+    training = json.loads(policy.metadata["training"])
+    assert (training["samples"], training["seed"]) == (2 * 2 * 4, 3)
+    received: list[EvolveArgs] = []
+    monkeypatch.setattr(evolve_command, "evolve", received.append)
+    assert cli.main(shlex.split(training["command"])[1:]) == 0
+    assert received[0].to_json() == replace(given, out=received[0].out).to_json()
+    assert [row["generation"] for row in rows(tmp_path / "run")] == ["1", "2"]
+    assert {"zero as blue", "zero as yellow"} < set(rows(tmp_path / "run")[0])
+    found = rsoccer.evaluate(path, "zero", matches=2)
+    assert found.matches == 2
+
+
+def test_a_run_that_goes_on_is_the_same_as_one_without_a_stop(tmp_path: Path) -> None:
+    whole = evolve(args(tmp_path / "whole", step_size=20.0, opponents=("scripted:0.3",)))
+    parts = args(tmp_path / "parts", step_size=20.0, opponents=("scripted:0.3",), generations=1)
+    evolve(parts)
+    path = evolve(replace(parts, generations=2, resume=True, threads=2))
+    found, expected = Evolved.load(path).tactics, Evolved.load(whole).tactics
+    np.testing.assert_array_equal(found, expected)
+    defaults = [tactic.default for tactic in ScriptedSsl.TACTICS]
+    assert not np.allclose(found, defaults), "some match had another score"
+    assert len(rows(tmp_path / "parts")) == 2
+    other = evolve(args(tmp_path / "o", step_size=20.0, opponents=("scripted:0.3",), seed=1))
+    assert (Evolved.load(other).tactics != expected).any()
+
+
+def test_it_begins_with_the_tactics_of_a_file(tmp_path: Path) -> None:
+    first = evolve(args(tmp_path / "a", step_size=20.0, opponents=("scripted:0.3",)))
+    second = evolve(args(tmp_path / "b", generations=1, step_size=1e-9, first=str(first)))
+    np.testing.assert_allclose(Evolved.load(second).tactics, Evolved.load(first).tactics, rtol=1e-5)
+    with pytest.raises(ValueError, match="first: expected tactics of scripted, got zero"):
+        evolve(args(tmp_path / "c", first="zero"))
+
+
+def test_wrong_settings_are_refused_before_anything_changes(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="matches must be an even number, got 3"):
+        args(tmp_path, matches=3)
+    with pytest.raises(ValueError, match="script must be one of"):
+        args(tmp_path, script="chase")
+    out = tmp_path / "out"
+    with pytest.raises(ValueError, match="scripted"):
+        evolve(replace(args(out), task="VSSMatch-v0", task_options={}))
+    with pytest.raises(ValueError, match="opponents: expected none in SSLGoToBall-v0"):
+        evolve(replace(args(out), task="SSLGoToBall-v0", task_options={}))
+    with pytest.raises(ValueError, match="unknown policy 'nobody'"):
+        evolve(args(out, opponents=("nobody",)))
+    with pytest.raises(ValueError, match="resume: expected the state of a run"):
+        evolve(args(out, resume=True))
+    assert not out.exists()
+    evolve(args(out, generations=1))
+    with pytest.raises(ValueError, match=r"out: .* holds a run"):
+        evolve(args(out))
+    with pytest.raises(ValueError, match="other settings: seed was 0, is 1"):
+        evolve(args(out, resume=True, seed=1))
