@@ -33,6 +33,7 @@ from numpy.typing import ArrayLike
 from rsoccer.arrays import Floats
 from rsoccer.policies import policy_file, training_conditions
 from rsoccer.policies.base import Memory, Policy, PolicyInput
+from rsoccer.policies.ssl.keep import Keep
 from rsoccer.policies.ssl.team import ScriptedSsl
 from rsoccer.policies.tactics import TacticalPolicy, checked
 from rsoccer.registry import make_task
@@ -45,7 +46,7 @@ if TYPE_CHECKING:
 
 FORMAT: Final = "rsoccer-tactics-1"
 """Version of the format. A new number makes older readers refuse the file."""
-SCRIPTS: Final[Mapping[str, type[TacticalPolicy]]] = {"scripted": ScriptedSsl}
+SCRIPTS: Final[Mapping[str, type[TacticalPolicy]]] = {"keep": Keep, "scripted": ScriptedSsl}
 """Scripts by the names that they have as policies."""
 _ARRAY: Final = "tactics"
 
@@ -100,7 +101,7 @@ class Evolved(Policy):
 
     @classmethod
     def load(cls, path: str | os.PathLike[str], task: Task | None = None) -> Self:
-        """Read a file of tactics.
+        """Return the policy of a file of tactics.
 
         Args:
             path: the file.

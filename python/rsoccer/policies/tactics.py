@@ -18,7 +18,7 @@ class Tactic(NamedTuple):
     """A number of a script."""
 
     name: str
-    """what it is"""
+    """name of the number"""
     default: float
     """value that was set by hand"""
     least: float

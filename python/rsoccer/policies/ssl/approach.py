@@ -70,7 +70,7 @@ def approach_ball(
     ball: tuple[Floats, Floats],
     robots: XY,
     region: Region,
-    max_speed: float,
+    max_speed: Floats | float,
     direction: XY | None = None,
 ) -> tuple[Floats, Floats, Floats]:
     """Return velocities that bring the ball into the mouth.

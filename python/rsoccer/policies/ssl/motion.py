@@ -29,7 +29,7 @@ def heading_error(ego: RobotColumns, x: Floats, y: Floats) -> XY:
 
 
 def angular_velocity_to(
-    ego: RobotColumns, x: Floats, y: Floats, max_angular_velocity: float
+    ego: RobotColumns, x: Floats, y: Floats, max_angular_velocity: Floats | float
 ) -> Floats:
     """Return angular velocities (rad/s) that turn the robots to directions.
 
@@ -75,7 +75,11 @@ def velocity_to(
 
 
 def limit_speed_near_robots(
-    position: Floats, velocity: XY, robots: XY, robot_diameter: np.float32, max_speed: float
+    position: Floats,
+    velocity: XY,
+    robots: XY,
+    robot_diameter: np.float32,
+    max_speed: Floats | float,
 ) -> XY:
     """Limit speeds (m/s) so that a robot can turn away before the nearest robot.
 

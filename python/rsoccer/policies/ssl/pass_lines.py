@@ -38,7 +38,9 @@ class PassSpeed:
         return self._rolling.kick_speed(distance, arrival, self._ratio, self._slides)
 
 
-def openness(start: XY, end: XY, opponents: XY) -> Floats:
+def openness(
+    start: XY, end: XY, opponents: XY, reach: Floats | np.float32 = REACH_PER_METER
+) -> Floats:
     """Return how open passes are: the distance that opponents lack to reach their lines, m.
 
     An opponent far along the line has more time to get there. Negative values are lines that it
@@ -48,6 +50,7 @@ def openness(start: XY, end: XY, opponents: XY) -> Floats:
         start: (n, robots, 1) starts of the passes, m.
         end: (n, robots, k) ends of the passes, m.
         opponents: (n, robots, o) positions of opponents, m.
+        reach: way of an opponent for each m of the ball's, which broadcasts to (n, robots, k, o).
 
     Returns:
         (n, robots, k) meters, over all opponents the least.
@@ -57,5 +60,5 @@ def openness(start: XY, end: XY, opponents: XY) -> Floats:
     distance = segment_distance(starts, end, x, y)
     along = norm(x - starts[0][..., None], y - starts[1][..., None])
     length = norm(end[0] - starts[0], end[1] - starts[1])[..., None]
-    gap: Floats = (distance - REACH_PER_METER * np.minimum(along, length)).min(axis=-1)
+    gap: Floats = (distance - reach * np.minimum(along, length)).min(axis=-1)
     return gap

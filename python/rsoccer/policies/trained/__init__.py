@@ -103,7 +103,7 @@ def load_best(task: Task, detail: str | None = None) -> Network | Evolved:
 
 
 def load_best_network(task: Task, detail: str | None = None) -> Network:
-    """Load the trained policy of a task that is a network.
+    """Return the trained policy of a task that is a network.
 
     Args:
         task: the task that is played.
@@ -144,7 +144,7 @@ def load_file(path: Path, mode: str | None = None, task: Task | None = None) -> 
 
 
 def _has_tactics(path: Path) -> bool:
-    """Whether a file has tactics; errors of other files are told by their reader."""
+    """Whether a file has tactics; their own reader reports errors of other files."""
     try:
         return is_tactics(policy_file.read_file(path)[1])
     except ValueError:

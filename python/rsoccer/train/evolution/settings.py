@@ -19,8 +19,10 @@ _RECOMMENDED: Final[Mapping[str, Mapping[str, Any]]] = {
         "task_options": {"half_seconds": 60.0},
         "opponents": ("scripted:0.5", "scripted"),
     },
+    "SSLKeepaway-v0": {"script": "keep", "matches": 200},
+    "SSLPassEnduranceMulti-v1": {"script": "keep", "matches": 200},
 }
-"""Values of settings by name, by the name of the task: whole matches of two minutes."""
+"""Values of settings by name, by the name of the task; whole matches take two minutes."""
 
 
 # The docstrings of the fields are the help of `rsoccer evolve`.
@@ -36,7 +38,7 @@ class EvolveArgs:
     task: str = "SSLMatch-v0"
     """registered SSL task"""
     script: str = "scripted"
-    """script whose numbers change: scripted, the whole SSL team"""
+    """script whose numbers change: scripted, the whole SSL team, or keep"""
     first: str | None = None
     """file of tactics to begin with, or best; None begins with those that were set by hand"""
     out: Path = Path("out/evolve")
