@@ -70,6 +70,58 @@ def test_both_read_the_same(message: simulation_pb2.RobotControl, team: int, see
     np.testing.assert_array_equal(fast[1], slow.given)
 
 
+@given(message=controls(), team=st.sampled_from([BLUE, YELLOW]), seed=st.integers(0, 9))
+@settings(deadline=None, max_examples=300)
+def test_repeated_messages_are_read_as_the_first(
+    message: simulation_pb2.RobotControl, team: int, seed: int
+) -> None:
+    rng = np.random.default_rng(seed)
+    first = ControlReader(LAYOUT)
+    data = message.SerializeToString()
+    for _ in range(2):  # the second one leaves a template
+        first.read(data, team, np.zeros((12, 6), np.float32))
+    for command in message.robot_commands:
+        for name in ("kick_speed", "kick_angle", "dribbler_speed"):
+            if command.HasField(name) and rng.uniform() < 0.5:
+                setattr(command, name, rng.uniform(-1.0, 9.0))
+        if command.move_command.HasField("local_velocity") and rng.uniform() < 0.5:
+            command.move_command.local_velocity.left = rng.uniform(-3.0, 3.0)
+    data, previous = message.SerializeToString(), rng.uniform(0.0, 1.0, (12, 6)).astype(np.float32)
+    kept, new = (reader.read(data, team, previous) for reader in (first, ControlReader(LAYOUT)))
+    assert (kept is None) == (new is None)
+    if kept is not None and new is not None:
+        for found, expected in zip(kept, new, strict=True):
+            np.testing.assert_array_equal(found, expected)
+
+
+def test_templates_are_used_and_other_messages_of_their_length_are_not_misread() -> None:
+    reader = ControlReader(LAYOUT)
+
+    def message(numbers: list[int], speed: float) -> bytes:
+        control = simulation_pb2.RobotControl()
+        for number in numbers:
+            command = control.robot_commands.add(id=number, kick_speed=speed, kick_angle=0.0)
+            command.dribbler_speed = 716.0
+            local = command.move_command.local_velocity
+            local.forward, local.left, local.angular = speed, -speed, 2 * speed
+        return control.SerializeToString()
+
+    previous = np.full((12, 6), 0.25, np.float32)
+    for speed in (1.0, 2.0, 3.0):
+        read = reader.read(message([0, 4], speed), BLUE, previous)
+        assert read is not None
+        np.testing.assert_allclose(read[0][[0, 4]], [[speed, -speed, 2 * speed, speed, 0, 0.5]] * 2)
+        assert (np.delete(read[0], [0, 4], axis=0) == 0.25).all()
+        assert np.flatnonzero(read[1]).tolist() == np.flatnonzero(read[2]).tolist() == [0, 4]
+    assert reader._templates
+    other = reader.read(message([1, 5], 4.0), BLUE, previous)
+    assert other is not None
+    assert np.flatnonzero(other[1]).tolist() == [1, 5]
+    assert reader.read(message([1, 9], 4.0), BLUE, previous) is None, "no such robot"
+    for wrong in (np.nan, -1.0, np.inf):
+        assert reader.read(message([0, 4], wrong), BLUE, previous) is None
+
+
 def test_common_messages_are_read_fast() -> None:
     message = simulation_pb2.RobotControl()
     for number in range(6):

@@ -7,12 +7,14 @@ a check of all numbers at once, and leaves every other one, and all errors, to
 
 from __future__ import annotations
 
+import contextlib
 import math
 from typing import NamedTuple
 
 import numpy as np
 
 from rsoccer.arrays import Floats, Mask
+from rsoccer.bridge.message_template import MessageTemplate
 from rsoccer.frame import Frame
 from rsoccer.protocols.commands import FULL_DRIBBLER_RPM, MAX_KICK_ANGLE
 from rsoccer.protocols.layout import TEAMS, WireLayout
@@ -22,6 +24,7 @@ from rsoccer.protocols.schemas import simulation_pb2
 
 _COLUMNS = ("v_x", "v_y", "v_theta", "kick_v_x", "kick_v_z", "dribbler")
 _MAX_ANSWERS = 4096
+_MAX_TEMPLATES = 64
 
 
 class CommonCommands(NamedTuple):
@@ -54,6 +57,8 @@ class ControlReader:
         ]
         self._robots = config.n_robots
         self._answers: dict[tuple[int, bytes, bytes], bytes] = {}
+        self._templates: dict[tuple[int, int], MessageTemplate] = {}
+        self._lengths = [0, 0]  # of each team's last message
 
     def read(self, data: bytes, team: int, previous: Floats) -> CommonCommands | None:
         """Return what a message has; None if it is not a common one.
@@ -63,7 +68,17 @@ class ControlReader:
             team: `BLUE` or `YELLOW`.
             previous: (robots, command) commands that hold where the message has no field.
         """
-        message = _parsed(data) if self._is_usable else None
+        if not self._is_usable:
+            return None
+        template = self._templates.get((team, len(data)))
+        commands = None if template is None else template.read(data, previous)
+        if template is not None and commands is not None:
+            return CommonCommands(commands, template.given, template.moved)
+        return self._read_fields(data, team, previous)
+
+    def _read_fields(self, data: bytes, team: int, previous: Floats) -> CommonCommands | None:
+        """Read a message field by field."""
+        message = _parsed(data)
         if message is None:
             return None
         rows: list[list[float]] = previous.tolist()
@@ -82,7 +97,21 @@ class ControlReader:
             return None
         given = np.zeros(self._robots, np.bool_)
         given[slots] = True
+        self._learn(message, data, team)
         return CommonCommands(numbers.astype(np.float32), given, moved)
+
+    def _learn(self, message: simulation_pb2.RobotControl, data: bytes, team: int) -> None:
+        """Keep the template of a message that has come twice, as clients repeat theirs."""
+        repeats = self._lengths[team] == len(data)
+        self._lengths[team] = len(data)
+        if not repeats:
+            return
+        if len(self._templates) >= _MAX_TEMPLATES:
+            self._templates.clear()
+        with contextlib.suppress(ValueError):  # of another encoder: it is read field by field
+            self._templates[team, len(data)] = MessageTemplate(
+                message, data, self._slots[team], self._robots
+            )
 
     def answer(self, frame: Frame, team: int, given: Mask) -> bytes:
         """Return the answer to a message without errors.
