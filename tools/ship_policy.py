@@ -102,10 +102,9 @@ def ship(
     task = rsoccer.make_task(policy.task_name)
     if task.name != policy.task_name:
         raise ValueError(f"run: expected a policy of {task.name}, got one of {policy.task_name}")
-    if isinstance(policy, Network):  # tactics have their training from the start
-        if "layout" not in policy.metadata:
-            raise ValueError(f"run: expected a policy with its layout in {run}, got none")
-        policy.metadata["training"] = json.dumps(_training(run))
+    if isinstance(policy, Network) and "layout" not in policy.metadata:
+        raise ValueError(f"run: expected a policy with its layout in {run}, got none")
+    policy.metadata["training"] = json.dumps(_training(run))
     path = trained.FOLDER / trained.file_name(task.name, variant_of(policy))
     candidate = run / path.name
     _save(policy, candidate)  # scores are those of the rounded weights
@@ -274,9 +273,11 @@ def command_of(settings: dict[str, Any]) -> str:
     """Return the command of a run with all its settings, as defaults and recommended ones change.
 
     Args:
-        settings: settings of the run, from `Args.to_json` or `DistillArgs.to_json`.
+        settings: settings of the run, from `to_json` of `Args`, `DistillArgs` or `EvolveArgs`.
     """
-    words = ["rsoccer", "distill" if "teacher" in settings else "train"]
+    kinds = {"teacher": "distill", "script": "evolve"}
+    kind = next((kinds[name] for name in kinds if name in settings), "train")
+    words = ["rsoccer", kind]
     for name, value in settings.items():
         if name in CHANGEABLE_ON_RESUME and name != "samples":
             continue

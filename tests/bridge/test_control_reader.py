@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from rsoccer.bridge import control_reader
 from rsoccer.bridge.control_reader import ControlReader
 from rsoccer.bridge.match_tasks import make_match
+from rsoccer.bridge.message_template import MessageTemplate
 from rsoccer.frame import Frame
 from rsoccer.game import BLUE, YELLOW
 from rsoccer.protocols.answers import to_robot_control_response
@@ -113,13 +116,51 @@ def test_templates_are_used_and_other_messages_of_their_length_are_not_misread()
         np.testing.assert_allclose(read[0][[0, 4]], [[speed, -speed, 2 * speed, speed, 0, 0.5]] * 2)
         assert (np.delete(read[0], [0, 4], axis=0) == 0.25).all()
         assert np.flatnonzero(read[1]).tolist() == np.flatnonzero(read[2]).tolist() == [0, 4]
-    assert reader._templates
+    assert any(kind.template for kind in reader._kinds.values())
     other = reader.read(message([1, 5], 4.0), BLUE, previous)
     assert other is not None
     assert np.flatnonzero(other[1]).tolist() == [1, 5]
     assert reader.read(message([1, 9], 4.0), BLUE, previous) is None, "no such robot"
     for wrong in (np.nan, -1.0, np.inf):
         assert reader.read(message([0, 4], wrong), BLUE, previous) is None
+
+
+def test_clients_with_a_packet_for_each_robot_have_a_template_for_each(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    built: list[bytes] = []
+
+    def counted(*args: Any) -> MessageTemplate:  # noqa: ANN401
+        built.append(args[1])
+        return MessageTemplate(*args)
+
+    monkeypatch.setattr(control_reader, "MessageTemplate", counted)
+    reader, previous = ControlReader(LAYOUT), np.zeros((12, 6), np.float32)
+    for nth in range(60):
+        message = simulation_pb2.RobotControl()
+        message.robot_commands.add(id=nth % 6, kick_speed=nth)
+        read = reader.read(message.SerializeToString(), BLUE, previous)
+        assert read is not None
+        assert read[0][nth % 6, 3] == nth
+    assert len(built) == 6
+
+
+def test_messages_that_no_template_fits_are_not_learned_again_and_again(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    built: list[bytes] = []
+
+    def counted(*args: Any) -> MessageTemplate:  # noqa: ANN401
+        built.append(args[1])
+        raise ValueError("another encoder")
+
+    monkeypatch.setattr(control_reader, "MessageTemplate", counted)
+    reader, previous = ControlReader(LAYOUT), np.zeros((12, 6), np.float32)
+    message = simulation_pb2.RobotControl()
+    message.robot_commands.add(id=1, kick_speed=2.0)
+    for _ in range(100):
+        assert reader.read(message.SerializeToString(), BLUE, previous) is not None
+    assert 0 < len(built) < 20
 
 
 def test_common_messages_are_read_fast() -> None:

@@ -44,7 +44,10 @@ impl PolicyFile {
             return Err(wrong("it has numbers of another version of the scripted team"));
         }
         match (arrays.remove(TACTICS), arrays.keys().next()) {
-            (Some(array), None) => Ok(Self::Tactics(array.values)),
+            (Some(array), None) if array.shape.len() == 1 => Ok(Self::Tactics(array.values)),
+            (Some(array), None) => {
+                Err(wrong(&format!("expected one row of numbers, got shape {:?}", array.shape)))
+            }
             (None, _) => Err(wrong("expected an array \"tactics\"")),
             (_, Some(name)) => Err(wrong(&format!("unknown array {name:?}"))),
         }

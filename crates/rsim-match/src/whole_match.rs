@@ -451,6 +451,25 @@ mod tests {
     }
 
     #[test]
+    fn tactics_of_a_file_change_how_a_side_plays() {
+        let known = rsim_teams::TACTICS;
+        let with = |tactics: Option<Vec<f32>>| {
+            let mut one = scripted("ssl_b", 3);
+            if let Some(tactics) = tactics {
+                one.set_policy(Team::Blue, PolicyFile::Tactics(tactics)).expect("SSL");
+            }
+            play(&mut one, 600)
+        };
+        let by_hand = with(None);
+        assert_eq!(with(Some(known.map(|tactic| tactic.default).to_vec())), by_hand);
+        assert_ne!(with(Some(known.map(|tactic| tactic.most).to_vec())), by_hand);
+        let mut one = scripted("ssl_b", 3);
+        let wrong = PolicyFile::Tactics(vec![1.0; known.len()]);
+        let error = one.set_policy(Team::Blue, wrong).expect_err("out of range").to_string();
+        assert!(error.contains("tactics: expected"), "{error}");
+    }
+
+    #[test]
     fn a_match_is_a_function_of_its_setup() {
         let rows = [3, 3, 4].map(|seed| play(&mut scripted("ssl_b", seed), 600));
         assert!(rows[0] == rows[1] && rows[0] != rows[2]);

@@ -141,7 +141,7 @@ fn pass(s: &Situation, from: Vector, teammate: &Player) -> Option<Kick> {
             * chance(s.tactics, margin(s.tactics, &high, &s.view.others, s.body()))
     };
     let arrives = passes.max(flies);
-    if arrives < s.skill.caution * s.tactics.pass_threshold {
+    if arrives < s.skill.pass_threshold_with(s.tactics) {
         return None;
     }
     let chip = flies > passes;

@@ -78,7 +78,7 @@ impl Driving<'_> {
         velocity = self.kept_off_robots(robot, velocity);
         let is_faster = velocity.length() > robot.velocity.length();
         let own = if is_faster {
-            self.skill.speed * self.tactics.acceleration_share * self.config.robot.max_acceleration
+            self.skill.acceleration_with(self.tactics) * self.config.robot.max_acceleration
         } else {
             f32::INFINITY
         };

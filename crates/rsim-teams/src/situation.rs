@@ -14,6 +14,8 @@ use crate::view::{Player, View};
 
 /// Index of the keeper in its team.
 pub(crate) const KEEPER: usize = 0;
+/// Share of the maximum acceleration with which own robots are expected to come to the ball.
+const PACE: f32 = 0.85;
 
 /// Knowledge of a team in a step.
 pub(crate) struct Situation<'a> {
@@ -48,7 +50,7 @@ impl<'a> Situation<'a> {
     pub(crate) fn meet(&mut self) {
         let reach = self.config.robot.radius;
         let pace =
-            Pace { speed: self.speed(), acceleration: 0.85 * self.config.robot.max_acceleration };
+            Pace { speed: self.speed(), acceleration: PACE * self.config.robot.max_acceleration };
         let theirs =
             Pace { speed: self.tactics.their_speed, acceleration: self.tactics.their_acceleration };
         self.own = Meetings::new(&self.view.own, &self.path, self.pitch, pace, reach);
@@ -57,7 +59,7 @@ impl<'a> Situation<'a> {
 
     /// Greatest speed of the own robots, m/s.
     pub(crate) fn speed(&self) -> f32 {
-        self.skill.speed * self.tactics.speed_share * self.config.robot.max_speed
+        self.skill.speed_with(self.tactics) * self.config.robot.max_speed
     }
 
     /// Position of the ball, m.

@@ -1,5 +1,7 @@
 //! Skill of a team: one number from 0 to 1 sets a few limits of people and robots.
 
+use crate::tactics::Tactics;
+
 /// Limits of a team's play.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Skill {
@@ -7,12 +9,13 @@ pub(crate) struct Skill {
     pub(crate) reaction_steps: i32,
     /// Standard deviation of the direction of a kick, rad.
     pub(crate) aim_error: f32,
-    /// Share of the speed of a skilled team that it uses, and of its acceleration when it gets faster.
+    /// Share of the robot's maximum speed that it uses with the tactics set by hand, and of its acceleration when it
+    /// gets faster.
     pub(crate) speed: f32,
     /// Speed and acceleration of turns, as a share of those of a skilled team.
     pub(crate) turning: f32,
-    /// Likelihood from which a pass is tried, as a multiple of that of a skilled team.
-    pub(crate) caution: f32,
+    /// Likelihood from which a pass is tried with these tactics.
+    pub(crate) pass_threshold: f32,
 }
 
 /// Longest reaction time, s: more than twice that of people.
@@ -21,14 +24,27 @@ const MAX_REACTION: f32 = 0.5;
 const MAX_AIM_ERROR: f32 = 0.2;
 /// Smallest one, rad: half a degree. It also keeps two sides from playing the same rally forever.
 const MIN_AIM_ERROR: f32 = 0.01;
-/// Smallest share of the speed of a skilled team.
-const MIN_SPEED: f32 = 0.353;
+/// Smallest share of the maximum speed.
+const MIN_SPEED: f32 = 0.3;
 /// Smallest share of the speed of turns.
 const MIN_TURNING: f32 = 0.4;
-/// Greatest caution.
-const MAX_CAUTION: f32 = 2.0;
 
 impl Skill {
+    /// Share of the robot's maximum speed that a team with some tactics uses.
+    pub(crate) fn speed_with(&self, tactics: &Tactics) -> f32 {
+        self.speed * (tactics.speed_share / Tactics::DEFAULT.speed_share)
+    }
+
+    /// Share of the robot's maximum acceleration that a team with some tactics uses when it gets faster.
+    pub(crate) fn acceleration_with(&self, tactics: &Tactics) -> f32 {
+        self.speed * (tactics.acceleration_share / Tactics::DEFAULT.acceleration_share)
+    }
+
+    /// Likelihood from which a team with some tactics tries a pass.
+    pub(crate) fn pass_threshold_with(&self, tactics: &Tactics) -> f32 {
+        self.pass_threshold * (tactics.pass_threshold / Tactics::DEFAULT.pass_threshold)
+    }
+
     /// Limits of a skill from 0 to 1. All of them change evenly with it.
     #[allow(clippy::cast_possible_truncation)] // few steps
     pub(crate) fn new(skill: f32, time_step: f32) -> Self {
@@ -37,9 +53,9 @@ impl Skill {
         Self {
             reaction_steps: (between(MAX_REACTION, 0.0) / time_step).round().max(1.0) as i32,
             aim_error: between(MAX_AIM_ERROR, MIN_AIM_ERROR),
-            speed: between(MIN_SPEED, 1.0),
+            speed: between(MIN_SPEED, Tactics::DEFAULT.speed_share),
             turning: between(MIN_TURNING, 1.0),
-            caution: between(MAX_CAUTION, 1.0),
+            pass_threshold: between(0.9, Tactics::DEFAULT.pass_threshold),
         }
     }
 }

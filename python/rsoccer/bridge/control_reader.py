@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import contextlib
 import math
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -24,7 +25,9 @@ from rsoccer.protocols.schemas import simulation_pb2
 
 _COLUMNS = ("v_x", "v_y", "v_theta", "kick_v_x", "kick_v_z", "dribbler")
 _MAX_ANSWERS = 4096
-_MAX_TEMPLATES = 64
+_MAX_KINDS = 256
+_MAX_FAILURES = 16
+_HEAD = 4  # bytes of a message up to the number of its first robot
 
 
 class CommonCommands(NamedTuple):
@@ -36,6 +39,17 @@ class CommonCommands(NamedTuple):
     """(robots,) robots that the message has."""
     moved: Mask
     """(robots,) robots whose velocity it has."""
+
+
+@dataclass
+class _Kind:
+    """Messages of a team with the same length and the same first robot."""
+
+    template: MessageTemplate | None = None
+    uses: int = 0
+    """messages that the template has read"""
+    failures: int = 0
+    """messages after the first that were read field by field"""
 
 
 class ControlReader:
@@ -57,8 +71,7 @@ class ControlReader:
         ]
         self._robots = config.n_robots
         self._answers: dict[tuple[int, bytes, bytes], bytes] = {}
-        self._templates: dict[tuple[int, int], MessageTemplate] = {}
-        self._lengths = [0, 0]  # of each team's last message
+        self._kinds: dict[tuple[int, int, bytes], _Kind] = {}
 
     def read(self, data: bytes, team: int, previous: Floats) -> CommonCommands | None:
         """Return what a message has; None if it is not a common one.
@@ -70,9 +83,11 @@ class ControlReader:
         """
         if not self._is_usable:
             return None
-        template = self._templates.get((team, len(data)))
+        kind = self._kinds.get(_kind(data, team))
+        template = None if kind is None else kind.template
         commands = None if template is None else template.read(data, previous)
-        if template is not None and commands is not None:
+        if kind is not None and template is not None and commands is not None:
+            kind.uses += 1
             return CommonCommands(commands, template.given, template.moved)
         return self._read_fields(data, team, previous)
 
@@ -101,17 +116,24 @@ class ControlReader:
         return CommonCommands(numbers.astype(np.float32), given, moved)
 
     def _learn(self, message: simulation_pb2.RobotControl, data: bytes, team: int) -> None:
-        """Keep the template of a message that has come twice, as clients repeat theirs."""
-        repeats = self._lengths[team] == len(data)
-        self._lengths[team] = len(data)
-        if not repeats:
+        """Keep the template of a message whose kind comes again, as clients repeat theirs.
+
+        Kinds that templates do not fit, as of other encoders and of messages that differ in more
+        than numbers, are read field by field from then on.
+        """
+        kind = _kind(data, team)
+        if kind not in self._kinds:
+            if len(self._kinds) >= _MAX_KINDS:
+                self._kinds.clear()
+            self._kinds[kind] = _Kind()
             return
-        if len(self._templates) >= _MAX_TEMPLATES:
-            self._templates.clear()
-        with contextlib.suppress(ValueError):  # of another encoder: it is read field by field
-            self._templates[team, len(data)] = MessageTemplate(
-                message, data, self._slots[team], self._robots
-            )
+        known = self._kinds[kind]
+        if known.template is None and known.failures < _MAX_FAILURES:
+            with contextlib.suppress(ValueError):
+                known.template = MessageTemplate(message, data, self._slots[team], self._robots)
+        known.failures += 1
+        if known.failures >= _MAX_FAILURES and known.failures > known.uses:
+            known.template = None
 
     def answer(self, frame: Frame, team: int, given: Mask) -> bytes:
         """Return the answer to a message without errors.
@@ -138,6 +160,11 @@ class ControlReader:
                 self._answers.clear()
             self._answers[key] = answer
         return answer
+
+
+def _kind(data: bytes, team: int) -> tuple[int, int, bytes]:
+    """What messages of a client that differ in numbers alone have in common, at no cost."""
+    return team, len(data), data[:_HEAD]
 
 
 def _parsed(data: bytes) -> simulation_pb2.RobotControl | None:

@@ -23,7 +23,7 @@ class CommandEvolveArgs(EvolveArgs):
 
 @dataclass(frozen=True)
 class Evolve:
-    """Find better tactics of the scripted SSL side by playing matches."""
+    """Find better numbers of a script by playing matches."""
 
     args: Annotated[CommandEvolveArgs, arg(name="")]
     """settings of the run"""

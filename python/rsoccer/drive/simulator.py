@@ -27,6 +27,9 @@ FRAMES_TO_SHOW: Final = 20
 """Frames after which bodies are put again: the message may be lost."""
 HIDDEN: Final = 0.05
 """Gap between ball and robot up to which the robot may hide the ball from a camera, m."""
+FRAMES_TO_SEE: Final = 12
+"""Frames without a ball, after the past is forgotten, from which a robot hides it: all cameras
+have looked."""
 SETTLED: Final = 0.1
 """Speed up to which a robot stands, m/s: about what a tracker makes of noise."""
 SETTLING: Final = 2.0
@@ -241,7 +244,7 @@ class NetworkSimulator(NetworkStepper, Placer):
             self._settle()
         messages = connection.placement(wanted, ball_only=ball_only)
         sight, hidden = connection.sight, self._is_hidden(wanted)
-        state = {"seen": -1}
+        state = {"seen": -1, "hidden": False}
 
         def is_placed() -> bool:
             """Put bodies, again if need be, and look once they must be there."""
@@ -255,21 +258,24 @@ class NetworkSimulator(NetworkStepper, Placer):
             if passed <= FRAMES_TO_ACT:
                 return False
             sight.read(present.rows)
-            if hidden and not sight.has_ball:
+            if hidden and not sight.has_ball and passed >= FRAMES_TO_ACT + FRAMES_TO_SEE:
                 present.ball.data[:] = wanted.ball.data
+                state["hidden"] = True
             return _is_there(present, wanted, ball_only=ball_only)
 
         connection.stand(is_placed, "bodies where they were put")
         connection.forget()
-        if hidden:
+        self._let_pass(2)
+        if state["hidden"] and not sight.has_ball:
             x, y = wanted.ball.position[0].tolist()
             sight.suppose_ball((x, y))
-        self._let_pass(2)
         return self.read(out)
 
     def _is_hidden(self, wanted: Frame) -> bool:
-        """Whether the ball is put at a robot, where cameras may not see it."""
+        """Whether the ball is put to rest at a robot, where cameras may not see it."""
         config, robots = self.connection.config, wanted.robots
+        if _moves(wanted):
+            return False
         radii = np.array([model.bounding_radius for model in config.robots])
         away = np.linalg.norm(robots.position[0] - wanted.ball.position[0], axis=1)
         near = away - radii - config.ball.radius <= HIDDEN
@@ -296,9 +302,8 @@ class NetworkSimulator(NetworkStepper, Placer):
 
 def _is_there(present: Frame, wanted: Frame, *, ball_only: bool) -> bool:
     """Whether bodies are where they were put, as far as they stay there."""
-    moves = np.hypot(*wanted.ball.velocity[0]) > RESTING or wanted.ball.height[0] > PLACED
     ball = np.hypot(*(present.ball.position[0] - wanted.ball.position[0]))
-    if not moves and ball > PLACED:
+    if not _moves(wanted) and ball > PLACED:
         return False
     if ball_only:
         return True
@@ -306,6 +311,12 @@ def _is_there(present: Frame, wanted: Frame, *, ball_only: bool) -> bool:
     there = present.robots.absent[0] == 0
     away = np.linalg.norm(present.robots.position[0] - wanted.robots.position[0], axis=1)
     return bool((there[expected] & (away[expected] <= PLACED)).all())
+
+
+def _moves(wanted: Frame) -> bool:
+    """Whether a ball that is put goes on at once."""
+    speed = float(np.hypot(*wanted.ball.velocity[0]))
+    return speed > RESTING or float(wanted.ball.height[0]) > PLACED
 
 
 def _check_parameters(parameters: Floats | None) -> None:

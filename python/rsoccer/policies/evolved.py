@@ -36,7 +36,7 @@ from rsoccer.policies.base import Memory, Policy, PolicyInput
 from rsoccer.policies.ssl.keep import Keep
 from rsoccer.policies.ssl.team import ScriptedSsl
 from rsoccer.policies.tactics import TacticalPolicy, checked
-from rsoccer.registry import make_task
+from rsoccer.registry import task_with_options
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 
@@ -118,10 +118,11 @@ class Evolved(Policy):
             if set(arrays) != {_ARRAY}:
                 raise ValueError(f"expected the array {_ARRAY!r}, got {sorted(arrays)}")
             tactics = checked(arrays[_ARRAY], kind.TACTICS)
+            if task is None:
+                options = policy_file.read_task_options(metadata)
+                task = task_with_options(metadata["task"], options)
         except ValueError as error:
             raise ValueError(f"{os.fspath(path)} is not a usable policy file: {error}") from error
-        if task is None:
-            task = make_task(metadata["task"], **policy_file.read_task_options(metadata))
         return cls(task, tactics, metadata)
 
     @property

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import json
-import shlex
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -13,11 +12,10 @@ import numpy as np
 import pytest
 
 import rsoccer
-from rsoccer import cli
-from rsoccer.commands import evolve as evolve_command
 from rsoccer.policies.evolved import Evolved
 from rsoccer.policies.ssl.team import ScriptedSsl
-from rsoccer.train.evolution import EvolveArgs, evolve
+from rsoccer.train.evolution import EvolveArgs, evolve, run
+from rsoccer.train.evolution.strategy import Strategy
 
 OPTIONS = {"half_seconds": 2.0, "halves": 1, "n_blue": 2, "n_yellow": 2}
 
@@ -32,21 +30,16 @@ def rows(folder: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
-def test_a_policy_is_written_that_says_how_it_was_made(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_policy_and_a_log_are_written(tmp_path: Path) -> None:
     given = args(tmp_path / "run", sensing="rc2021", step_size=20.0, seed=3)
     path = evolve(given)
     policy = Evolved.load(path)
     assert (policy.task_name, policy.task_options) == ("SSLMatch-v0", OPTIONS)
     assert policy.sensing == rsoccer.Sensing("rc2021")
-    training = json.loads(policy.metadata["training"])
-    assert (training["samples"], training["seed"]) == (2 * 2 * 4, 3)
-    received: list[EvolveArgs] = []
-    monkeypatch.setattr(evolve_command, "evolve", received.append)
-    assert cli.main(shlex.split(training["command"])[1:]) == 0
-    assert received[0].to_json() == replace(given, out=received[0].out).to_json()
+    settings = json.loads((tmp_path / "run" / "args.json").read_text())
+    assert settings == given.to_json()
     assert [row["generation"] for row in rows(tmp_path / "run")] == ["1", "2"]
+    assert [row["samples"] for row in rows(tmp_path / "run")] == ["8", "16"]
     assert {"zero as blue", "zero as yellow"} < set(rows(tmp_path / "run")[0])
     found = rsoccer.evaluate(path, "zero", matches=2)
     assert found.matches == 2
@@ -62,8 +55,57 @@ def test_a_run_that_goes_on_is_the_same_as_one_without_a_stop(tmp_path: Path) ->
     defaults = [tactic.default for tactic in ScriptedSsl.TACTICS]
     assert not np.allclose(found, defaults), "some match had another score"
     assert len(rows(tmp_path / "parts")) == 2
+    whole_log, parts_log = (
+        [{name: each for name, each in row.items() if name != "seconds"} for row in rows(folder)]
+        for folder in (tmp_path / "whole", tmp_path / "parts")
+    )
+    assert whole_log == parts_log
     other = evolve(args(tmp_path / "o", step_size=20.0, opponents=("scripted:0.3",), seed=1))
     assert (Evolved.load(other).tactics != expected).any()
+
+
+def test_a_generation_that_was_stopped_before_its_state_is_played_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    given = args(tmp_path / "run", step_size=20.0)
+    keep = run._keep
+
+    def stop(args: EvolveArgs, strategy: Strategy, generation: int, files: dict[str, str]) -> None:
+        if generation == 2:
+            raise KeyboardInterrupt
+        keep(args, strategy, generation, files)
+
+    monkeypatch.setattr(run, "_keep", stop)
+    with pytest.raises(KeyboardInterrupt):
+        evolve(given)
+    stopped = Evolved.load(tmp_path / "run" / "policy.safetensors").tactics
+    monkeypatch.undo()
+    path = evolve(replace(given, resume=True))
+    np.testing.assert_array_equal(Evolved.load(path).tactics, stopped)
+    assert [row["generation"] for row in rows(tmp_path / "run")] == ["1", "2"]
+
+
+def test_opponents_with_other_content_are_refused(tmp_path: Path) -> None:
+    opponent = evolve(args(tmp_path / "a", generations=1))
+    given = args(tmp_path / "b", generations=1, opponents=(str(opponent),))
+    evolve(given)
+    Evolved.of_training(
+        "scripted", rsoccer.make_task("SSLMatch-v0"), [t.most for t in ScriptedSsl.TACTICS], {}
+    ).save(opponent)
+    with pytest.raises(ValueError, match="other policies of the same names"):
+        evolve(replace(given, generations=2, resume=True))
+
+
+def test_options_of_models_are_kept_as_texts(tmp_path: Path) -> None:
+    robot = rsoccer.RobotModel("ssl_generic", max_speed=2.0)
+    options = {**OPTIONS, "robot": robot, "reward_weights": {"goal": 3.0}}
+    given = args(tmp_path / "run", task_options=options, generations=1)
+    path = evolve(given)
+    policy = Evolved.load(path)
+    evolve(replace(given, generations=2, resume=True))
+    assert policy.task_options == given.task_options
+    found = rsoccer.evaluate(path, "zero", matches=2)
+    assert found.matches == 2
 
 
 def test_it_begins_with_the_tactics_of_a_file(tmp_path: Path) -> None:
@@ -89,6 +131,10 @@ def test_wrong_settings_are_refused_before_anything_changes(tmp_path: Path) -> N
     with pytest.raises(ValueError, match="resume: expected the state of a run"):
         evolve(args(out, resume=True))
     assert not out.exists()
+    (tmp_path / "train").mkdir()
+    (tmp_path / "train" / "progress.csv").touch()
+    with pytest.raises(ValueError, match=r"out: .* holds a run \(progress.csv\)"):
+        evolve(args(tmp_path / "train"))
     evolve(args(out, generations=1))
     with pytest.raises(ValueError, match=r"out: .* holds a run"):
         evolve(args(out))

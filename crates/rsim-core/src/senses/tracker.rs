@@ -152,7 +152,10 @@ impl Tracker {
         beams: Option<Beams<'_>>,
     ) {
         let (ball, robots) = (&mut self.ball, &self.robots);
-        let Some(beams) = beams else { return ball.take(elapsed, balls, &self.filters.ball) };
+        let Some(beams) = beams else {
+            ball.held = None;
+            return ball.take(elapsed, balls, &self.filters.ball);
+        };
         ball.held = ball.held.and_then(|mut held| {
             let robot = robots[held.robot].motion();
             held.take(balls, &robot, beams, sensing, elapsed).then_some(held)

@@ -102,7 +102,11 @@ impl VisionTracker {
         if self.time.is_some() {
             let balls: &[[f32; 2]] = if self.has_ball { balls } else { &[] };
             let frame = detections(time, balls, &known);
-            let cut = cut.filter(|_| self.has_ball);
+            // Of robots that were not seen no place is known that the ball could be at.
+            let in_sight = (0..self.robots_seen.len())
+                .filter(|robot| time - self.robots_seen[*robot] <= ABSENT)
+                .fold(0_u64, |bits, robot| bits | 1 << robot);
+            let cut = cut.filter(|_| self.has_ball).map(|cut| cut & in_sight);
             let beams = cut.map(|cut| Beams { cut, parameters: &self.parameters });
             self.tracker.take(&self.sensing, &frame, self.config.ball.radius, beams);
         }
@@ -220,6 +224,40 @@ mod tests {
         for reported in [None, Some(0), Some(0b10)] {
             assert!(last(reported).0 < -1.0, "without a report it stays where it was seen");
         }
+    }
+
+    #[test]
+    fn reports_that_end_end_the_hold() {
+        let mut tracker = tracker();
+        let robot = tracker.config().robots().next().expect("a robot").clone();
+        let mouth = robot.front_distance() + tracker.config().ball.radius;
+        let mut at = 0.0;
+        let mut take = |x: Option<f32>, cut: Option<u64>| {
+            at += PERIOD;
+            let ball = x.map(|x| [x, 1.0]);
+            assert!(tracker.take(at, ball.as_slice(), &[seen(0.0)], cut));
+            row(&tracker)[0]
+        };
+        for _ in 0..10 {
+            take(Some(mouth + 0.005), Some(1));
+        }
+        for frame in 0..40_u8 {
+            take(Some(mouth + 0.03 * f32::from(frame)), None);
+        }
+        let found = take(None, Some(1));
+        assert!(found > 1.0, "the ball that rolled away does not come back to {found}");
+    }
+
+    #[test]
+    fn reports_of_robots_out_of_sight_hold_nothing() {
+        let mut tracker = tracker();
+        let robot = tracker.config().robots().next().expect("a robot").clone();
+        let ball = [robot.front_distance() + tracker.config().ball.radius, 0.0];
+        for frame in 0..30_u8 {
+            let x = ball[0] + 0.01 * f32::from(frame);
+            assert!(tracker.take(f64::from(frame) * PERIOD, &[[x, 0.0]], &[], Some(0b11)));
+        }
+        assert!(row(&tracker)[0] > ball[0] + 0.25, "robot 0 was never seen at the origin");
     }
 
     #[test]

@@ -86,8 +86,8 @@ class _Numbers(NamedTuple):
         return _Numbers(*(part if len(part) == 1 else part[worlds] for part in self))
 
 
-_SPEEDS: Final = {"angular_velocity": 10.0, "arrival_speed": 6.0, "speed": 3.0, "aimed_cosine": 1.0}
-"""Greatest values, of robots and rules, where they are less than four times those set by hand."""
+_MOST: Final = {"angular_velocity": 10.0, "arrival_speed": 6.0, "speed": 3.0, "aimed_cosine": 1.0}
+"""Greatest values where they are less than four times those that were set by hand."""
 _DEFAULTS: Final = {
     "arrival_speed": 3.2,
     "lead_seconds": 0.25,
@@ -118,7 +118,7 @@ class Keep(TacticalPolicy):
     """
 
     TACTICS = tuple(
-        Tactic(name, _DEFAULTS[name], _DEFAULTS[name] / 4, _SPEEDS.get(name, 4 * _DEFAULTS[name]))
+        Tactic(name, _DEFAULTS[name], _DEFAULTS[name] / 4, _MOST.get(name, 4 * _DEFAULTS[name]))
         for name in _Numbers._fields
     )
     observes: Observes = "view"
@@ -138,7 +138,7 @@ class Keep(TacticalPolicy):
                 their ranges.
         """
         super().__init__(task)
-        numbers = tuple(_DEFAULTS.values()) if tactics is None else tactics
+        numbers = [tactic.default for tactic in self.TACTICS] if tactics is None else tactics
         self._tactics = checked(numbers, self.TACTICS)
         self._control = RobotControl(require_ssl("keep", task))
         if max(task.n_blue, task.n_yellow) < 2:

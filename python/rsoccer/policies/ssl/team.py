@@ -62,7 +62,8 @@ class ScriptedSsl(TacticalPolicy):
         ssl = require_ssl("scripted", task)
         if not 0.0 <= skill <= 1.0:
             raise ValueError(f"scripted: expected a skill from 0 to 1, got {skill}")
-        self._tactics = None if tactics is None else checked(tactics, self.TACTICS)
+        numbers = [tactic.default for tactic in self.TACTICS] if tactics is None else tactics
+        self.tactics = checked(numbers, self.TACTICS)
         super().__init__(task)
         self._task: Ssl = ssl
         self._team = ScriptedTeam(ssl.config, skill)
@@ -75,8 +76,7 @@ class ScriptedSsl(TacticalPolicy):
 
     def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> Memory:
         """Return the memories of both teams, `blue` and `yellow`, each (n, memory)."""
-        memory = {}
-        tactics = None if self._tactics is None else rows_of(self._tactics, shape[0])
+        memory, tactics = {}, rows_of(self.tactics, shape[0])
         for name in ("blue", "yellow"):
             rows = np.zeros((shape[0], self._team.memory_size), np.float32)
             seeds = (rng.uniform(0.0, 1.0) * np.float32(_SEEDS)).astype(np.int64)

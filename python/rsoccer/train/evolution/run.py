@@ -12,19 +12,18 @@ from typing import Any, Final
 
 import numpy as np
 
-from rsoccer import build_info
 from rsoccer.arrays import Doubles, Floats
 from rsoccer.evaluate.episodes import EpisodeRunner
 from rsoccer.files import write_atomically
 from rsoccer.lineup import lineup
 from rsoccer.policies import make_policy
 from rsoccer.policies.evolved import SCRIPTS, Evolved
-from rsoccer.registry import make_task
+from rsoccer.registry import task_with_options
 from rsoccer.task import LEARN, Task
 from rsoccer.train.args import SETTINGS_FILE
 from rsoccer.train.evolution.settings import EvolveArgs
 from rsoccer.train.evolution.strategy import Strategy, standardized
-from rsoccer.train.run.folder import POLICY_FILE
+from rsoccer.train.run.folder import POLICY_FILE, check_empty, digests_of, locked
 from rsoccer.train.run.log import FILE_NAME as LOG_FILE
 from rsoccer.view import SIDES
 
@@ -50,27 +49,50 @@ def run_evolution(args: EvolveArgs) -> Path:
         ImportError: safetensors is not installed.
         ValueError: see `evolve`.
     """
-    task = make_task(args.task, **args.task_options)
-    defaults = np.array([tactic.default for tactic in SCRIPTS[args.script].TACTICS], np.float32)
-    SCRIPTS[args.script].with_tactics(task, defaults)  # refuses tasks before anything changes
+    task = task_with_options(args.task, args.task_options)
+    strategy = _strategy(args, None if args.resume else _first(args, task))
     kinds = _kinds(args, task)
-    strategy, done = _resumed(args) if args.resume else (_begun(args, task), 0)
+    policy = _policy(args, task, strategy)
+    policy_files = digests_of(task, args.opponents)
+    if args.resume and not (args.out / STATE_FILE).exists():
+        raise ValueError(f"resume: expected the state of a run in {args.out}, got none")
     path = args.out / POLICY_FILE
-    for generation in range(done, args.generations):
-        start = time.monotonic()
-        rng = np.random.default_rng([args.seed, generation])
-        draws, scores, means = [], [], {}
-        for kind in kinds:
-            drawn = strategy.draw(args.matches // 2, rng)
-            found = _play(args, task, kind, strategy.tactics(drawn), int(rng.integers(2**31)))
-            draws.append(drawn)
-            scores.append(standardized(found))
-            means[_words(kind)] = float(found.mean())
-        strategy.learn(np.concatenate(draws), np.concatenate(scores))
-        _keep(args, strategy, generation + 1)
-        _save(args, task, strategy, generation + 1, len(kinds))
-        _log(args.out, {"generation": generation + 1, **means, "seconds": time.monotonic() - start})
+    with locked(args.out):
+        done = 0
+        if args.resume:
+            done = _resume(args, strategy, policy_files)
+        else:
+            check_empty(args.out)
+            policy.save(path)
+            write_atomically(
+                args.out / SETTINGS_FILE, json.dumps(args.to_json(), indent=2).encode()
+            )
+        _trim_log(args.out, done)
+        for generation in range(done, args.generations):
+            start = time.monotonic()
+            means = _generation(args, task, kinds, strategy, generation)
+            _policy(args, task, strategy).save(path)
+            matches = (generation + 1) * len(kinds) * args.matches
+            row = {"generation": generation + 1, "samples": matches, **means}
+            _log(args.out, {**row, "seconds": time.monotonic() - start})
+            _keep(args, strategy, generation + 1, policy_files)
     return path
+
+
+def _generation(
+    args: EvolveArgs, task: Task, kinds: list[Kind], strategy: Strategy, generation: int
+) -> dict[str, float]:
+    """Play the matches of a generation and learn from them. Return mean scores by kind."""
+    rng = np.random.default_rng([args.seed, generation])
+    draws, scores, means = [], [], {}
+    for kind in kinds:
+        drawn = strategy.draw(args.matches // 2, rng)
+        found = _play(args, task, kind, strategy.tactics(drawn), int(rng.integers(2**31)))
+        draws.append(drawn)
+        scores.append(standardized(found))
+        means[_words(kind)] = float(found.mean())
+    strategy.learn(np.concatenate(draws), np.concatenate(scores))
+    return means
 
 
 def _kinds(args: EvolveArgs, task: Task) -> list[Kind]:
@@ -80,6 +102,8 @@ def _kinds(args: EvolveArgs, task: Task) -> list[Kind]:
             f"opponents: expected none in {task.name}, which has no other team that learns, "
             f"got {list(args.opponents)}"
         )
+    if task.two_sided and task.success is None:
+        raise ValueError(f"task: expected one with a success metric, got {task.name}")
     for opponent in args.opponents:
         make_policy(opponent, task)
     sides = SIDES if task.two_sided else (None,)
@@ -118,22 +142,9 @@ def _first(args: EvolveArgs, task: Task) -> Floats | None:
     return policy.tactics
 
 
-def _begun(args: EvolveArgs, task: Task) -> Strategy:
-    """The strategy of a new run, whose folder is made."""
-    strategy = _strategy(args, _first(args, task))
-    if (args.out / STATE_FILE).exists() or (args.out / POLICY_FILE).exists():
-        raise ValueError(f"out: {args.out} holds a run; set resume, or name another folder")
-    args.out.mkdir(parents=True, exist_ok=True)
-    settings = json.dumps(args.to_json(), indent=2)
-    write_atomically(args.out / SETTINGS_FILE, settings.encode())
-    return strategy
-
-
-def _resumed(args: EvolveArgs) -> tuple[Strategy, int]:
-    """The strategy of the run in the folder, and the generations that it has played."""
+def _resume(args: EvolveArgs, strategy: Strategy, policy_files: dict[str, str]) -> int:
+    """Bring the strategy to where the run in the folder is. Return the generations so far."""
     path = args.out / STATE_FILE
-    if not path.exists():
-        raise ValueError(f"resume: expected the state of a run in {path}, got none")
     saved = json.loads(path.read_text())
     now = args.to_json()
     changed = [
@@ -143,57 +154,40 @@ def _resumed(args: EvolveArgs) -> tuple[Strategy, int]:
     ]
     if changed:
         raise ValueError(f"resume: {path} is of a run with other settings: {'; '.join(changed)}")
-    strategy = _strategy(args)
+    if saved["policy_files"] != policy_files:
+        raise ValueError(f"resume: {path} is of a run with other policies of the same names")
     strategy.mean, strategy.step = np.array(saved["mean"]), np.array(saved["step"])
-    return strategy, int(saved["generation"])
+    return int(saved["generation"])
 
 
-def _keep(args: EvolveArgs, strategy: Strategy, generation: int) -> None:
+def _keep(
+    args: EvolveArgs, strategy: Strategy, generation: int, policy_files: dict[str, str]
+) -> None:
     """Write the state from which the run resumes."""
     numbers = {"mean": strategy.mean.tolist(), "step": strategy.step.tolist()}
-    state = {"generation": generation, **numbers, "settings": args.to_json()}
+    settings = {"settings": args.to_json(), "policy_files": policy_files}
+    state = {"generation": generation, **numbers, **settings}
     write_atomically(args.out / STATE_FILE, json.dumps(state).encode())
 
 
-def _save(args: EvolveArgs, task: Task, strategy: Strategy, generation: int, kinds: int) -> None:
-    policy = Evolved.of_training(
-        args.script, task, strategy.tactics(), args.task_options, args.sensing
-    )
-    info = build_info()
-    policy.metadata["training"] = json.dumps(
-        {
-            "command": _command(args),
-            "samples": generation * kinds * args.matches,
-            "seed": args.seed,
-            "package": info["version"],
-            "physics": info["physics"],
-        }
-    )
-    policy.save(args.out / POLICY_FILE)
-
-
-def _command(args: EvolveArgs) -> str:
-    """The command of the run, without its folder."""
-    words = ["rsoccer evolve"]
-    for name, value in args.to_json().items():
-        option = f"--{name.replace('_', '-')}"
-        if name in ("out", "resume", "threads") or value in (None, [], {}):
-            continue
-        if isinstance(value, dict):
-            value = [f"{key}={each}" for key, each in value.items()]
-        texts = value if isinstance(value, list) else [value]
-        words.append(" ".join([option, *(_quoted(str(text)) for text in texts)]))
-    return " ".join(words)
-
-
-def _quoted(text: str) -> str:
-    return f"'{text}'" if " " in text else text
+def _policy(args: EvolveArgs, task: Task, strategy: Strategy) -> Evolved:
+    """The script with the present tactics."""
+    tactics = strategy.tactics().astype(np.float32)
+    return Evolved.of_training(args.script, task, tactics, args.task_options, args.sensing)
 
 
 def _words(kind: Kind) -> str:
     """Name of a kind of match, for the log."""
     opponent, side = kind
     return " as ".join(word for word in (opponent or "score", side) if word)
+
+
+def _trim_log(folder: Path, generations: int) -> None:
+    """Forget rows of the log that are played again, as their state was not written any more."""
+    path = folder / LOG_FILE
+    if path.exists():
+        rows = path.read_text().splitlines(keepends=True)
+        write_atomically(path, "".join(rows[: generations + 1]).encode())
 
 
 def _log(folder: Path, row: dict[str, Any]) -> None:
@@ -204,5 +198,6 @@ def _log(folder: Path, row: dict[str, Any]) -> None:
         if file.tell() == 0:
             writer.writeheader()
         writer.writerow(row)
-    texts = (f"{name} {value:.2f}" for name, value in row.items() if name != "generation")
+    shown = {name: value for name, value in row.items() if name not in ("generation", "samples")}
+    texts = (f"{name} {value:.2f}" for name, value in shown.items())
     sys.stderr.write(f"generation {row['generation']}: {', '.join(texts)}\n")

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Any, Final, Self
 
+from rsoccer.option_values import encoded
 from rsoccer.policies.evolved import SCRIPTS
 from rsoccer.sources import make_sensing
 from rsoccer.train.setting_types import Count, Natural, Positive, Range, convert_fields, expect
@@ -36,7 +37,7 @@ class EvolveArgs:
     """
 
     task: str = "SSLMatch-v0"
-    """registered SSL task"""
+    """registered task that the script plays"""
     script: str = "scripted"
     """script whose numbers change: scripted, the whole SSL team, or keep"""
     first: str | None = None
@@ -72,6 +73,10 @@ class EvolveArgs:
     def __post_init__(self) -> None:
         """Convert and check the values."""
         convert_fields(self)
+        options = {
+            name: encoded(f"task_options: {name}", v) for name, v in self.task_options.items()
+        }
+        object.__setattr__(self, "task_options", options)
         expect("matches", self.matches % 2 == 0, "an even number", self.matches)
         expect("script", self.script in SCRIPTS, f"one of {tuple(SCRIPTS)}", self.script)
         make_sensing(self.sensing)

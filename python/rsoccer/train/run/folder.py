@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import IO, Any
 
 from rsoccer.files import write_atomically
 from rsoccer.policies import file_of
+from rsoccer.task import Task
 from rsoccer.train.args import SETTINGS_FILE, Args
 from rsoccer.train.run import checkpoint
 from rsoccer.train.run.checkpoint import Checkpoint
@@ -47,15 +48,12 @@ def opened(args: Args, policy_files: dict[str, str]) -> Iterator[Checkpoint | No
     path = args.out / checkpoint.FILE_NAME
     if args.resume:
         checkpoint.load(path)  # before the folder changes
-    checkpoint.prepare_folder(args.out)
-    with (args.out / LOCK_FILE).open("w") as lock:
-        if not _try_lock(lock):
-            raise ValueError(f"out: another process trains in {args.out}")
+    with locked(args.out):
         saved = checkpoint.load(path) if args.resume else None
         if saved is not None:
             _check_same(args, policy_files, path, saved.info)
         elif not args.overwrite:
-            _check_empty(args.out)
+            check_empty(args.out)
         else:
             for name in MATCH_FILES:  # they would show the policy of another run
                 (args.out / name).unlink(missing_ok=True)
@@ -64,15 +62,44 @@ def opened(args: Args, policy_files: dict[str, str]) -> Iterator[Checkpoint | No
         yield saved
 
 
+@contextmanager
+def locked(folder: Path) -> Iterator[None]:
+    """Make the folder of a run, and keep other processes out of it.
+
+    Args:
+        folder: created with its parents if it does not exist.
+
+    Yields:
+        Nothing, while this process has the folder.
+
+    Raises:
+        ValueError: the folder cannot be written, or another process trains in it.
+    """
+    checkpoint.prepare_folder(folder)
+    with (folder / LOCK_FILE).open("w") as lock:
+        if not _try_lock(lock):
+            raise ValueError(f"out: another process trains in {folder}")
+        yield
+
+
 def policy_digests(args: Args) -> dict[str, str]:
     """Return the SHA-256 digests of the policy files that a run names, by their names.
 
     Args:
         args: settings of the run.
     """
-    players = args.make_task().default_controllers().values()
-    own = (player for player in players if isinstance(player, str))
-    names = {*args.opponents.fixed, *own}
+    return digests_of(args.make_task(), args.opponents.fixed)
+
+
+def digests_of(task: Task, policies: Iterable[str]) -> dict[str, str]:
+    """Return the SHA-256 digests of policy files, and of those beside the learners, by their names.
+
+    Args:
+        task: the task, which may have policies beside the learners.
+        policies: names and files of policies; those without a file are left out.
+    """
+    own = (p for p in task.default_controllers().values() if isinstance(p, str))
+    names = {*policies, *own}
     files = {name: file_of(name) for name in sorted(names)}
     return {
         name: hashlib.sha256(path.read_bytes()).hexdigest()
@@ -93,8 +120,15 @@ def _check_same(args: Args, policy_files: dict[str, str], path: Path, info: dict
         )
 
 
-def _check_empty(folder: Path) -> None:
-    """Raise ValueError if a folder has files of a run, even of one without a checkpoint."""
+def check_empty(folder: Path) -> None:
+    """Refuse a folder that has files of a run, even of one without a checkpoint.
+
+    Args:
+        folder: the folder.
+
+    Raises:
+        ValueError: it has.
+    """
     names = (checkpoint.FILE_NAME, POLICY_FILE, SETTINGS_FILE, LOG_FILE)
     if found := [name for name in names if (folder / name).exists()]:
         raise ValueError(
