@@ -15,7 +15,7 @@ import gymnasium
 import pettingzoo
 
 import rsoccer
-from benches import offline, scripted_ssl, transfer_tables
+from benches import offline, scripted_ssl, tactics, transfer_tables
 from benches.learning.reporting import report as learning
 from benches.markdown import filled, table
 from rsoccer import policies
@@ -33,6 +33,7 @@ README = ROOT / "README.md"
 WRITTEN = (
     README,
     DOCS / "coming-from-rsoccer-gym.md",
+    DOCS / "cooperation.md",
     DOCS / "getting-started.md",
     DOCS / "index.md",
     *learning.PAGES,
@@ -271,6 +272,7 @@ PARTS: dict[str, Callable[[], str]] = {
     "speed": speed,
     "speed_feature": feature,
     "speed_summary": summary,
+    "tactics": tactics.report,
     "tasks": tasks,
     "training_speed": training_speed,
     "transfer": transfer_tables.transfer,

@@ -8,13 +8,16 @@ import pytest
 import rsoccer
 from rsoccer import cli
 from rsoccer.commands import distill as distill_command
+from rsoccer.commands import evolve as evolve_command
 from rsoccer.commands import train as train_command
 from rsoccer.policies import trained
+from rsoccer.policies.evolved import is_tactics
 from rsoccer.policies.policy_file import read_file
 from rsoccer.registry import list_aliases
 from rsoccer.train import Args, RolloutSettings, task_settings
 from rsoccer.train.args import CHANGEABLE_ON_RESUME
 from rsoccer.train.distillation import DistillArgs
+from rsoccer.train.evolution import EvolveArgs
 from rsoccer.train.network.observation_mask import observation_mask
 from rsoccer.train.ppo.mirror import check_symmetric
 
@@ -51,7 +54,23 @@ def test_given_values_replace_recommended_ones(monkeypatch: pytest.MonkeyPatch) 
         Args.for_task("VSS-v0", horizons=3)
 
 
-@pytest.mark.parametrize("name", trained.list_trained())
+TRAINED = trained.list_trained()
+EVOLVED = [name for name, path in TRAINED.items() if is_tactics(read_file(path)[1])]
+
+
+@pytest.mark.parametrize("name", EVOLVED)
+def test_learned_tactics_were_made_with_the_settings_of_their_task(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    received: list[EvolveArgs] = []
+    monkeypatch.setattr(evolve_command, "evolve", received.append)
+    _, metadata = read_file(trained.list_trained()[name])
+    training = json.loads(metadata["training"])
+    assert cli.main(shlex.split(training["command"])[1:]) == 0
+    assert received[0].to_json() == EvolveArgs.for_task(name, seed=training["seed"]).to_json()
+
+
+@pytest.mark.parametrize("name", [n for n in TRAINED if n not in EVOLVED])
 def test_each_trained_policy_was_made_with_the_settings_of_its_task(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -75,7 +94,9 @@ def test_each_robust_policy_was_made_with_the_settings_of_its_task(
     _, metadata = read_file(trained.list_trained("robust")[name])
     training = json.loads(metadata["training"])
     assert cli.main(shlex.split(training["command"])[1:]) == 0
-    expected: DistillArgs | Args = DistillArgs.for_task(name, seed=training["seed"])
-    if isinstance(received[0], Args):  # `best` behind a forecast
-        expected = Args.for_task(name, seed=training["seed"], threads=1)
-    assert received[0].to_json() == expected.to_json()
+    expected = DistillArgs.for_task(name, seed=training["seed"]).to_json()
+    if isinstance(received[0], Args):  # `best` behind a forecast, or trained on behind it
+        expected = Args.for_task(name, seed=training["seed"], threads=1).to_json()
+        expected |= task_settings.ROBUST_SETTINGS.get(name, {})
+    # Threads change nothing in a policy, and commands name them no more.
+    assert {**received[0].to_json(), "threads": 1} == expected

@@ -180,6 +180,28 @@ TASK_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
 """Values of settings by the names that `Args.from_json` takes, by the name of the task."""
 
 
+ROBUST_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
+    "SSLGoToBall-v0": {
+        "samples": 4 * M,
+        "network.initial_policy": "best",
+        "network.action_std": 0.15,
+        "network.final_action_std": 0.03,
+        "sensing": "rc2021, forecast=1",
+        # Wider than what teams measure of their own: other simulators are farther away.
+        "randomization": {
+            "sensing.command_delay": [0.0, 0.06],
+            "robot.mass": [0.8, 1.25],
+            "robot.acceleration": [0.6, 1.5],
+            "robot.speed": [0.8, 1.1],
+            "robot.traction": [0.7, 1.2],
+            "ball.rolling_deceleration": [0.15, 0.7],
+        },
+    },
+}
+"""Settings, beside those of the task, of a training that goes on from `best` with senses, by the
+name of the task: those of policies `best:robust` that are not distilled."""
+
+
 def recommended_settings(task: str) -> dict[str, Any]:
     """Return the recommended settings for a task; {} where the defaults are.
 

@@ -49,7 +49,7 @@ class EvolveArgs:
     opponents: tuple[str, ...] = ()
     """policies of the other team, each in an equal share of the matches; none where there is no
     other team, or for the task's own"""
-    generations: Count = 15
+    generations: Count = 12
     """steps of the tactics"""
     matches: Count = 100
     """matches of a generation against each opponent from each side, an even number: one for each
