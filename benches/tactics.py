@@ -2,8 +2,9 @@
 
 A name and the folder of a run of `rsoccer evolve` stand for the policy of the run; `best` and
 `best:robust`, without a folder, are those of the package. Each plays whole matches of two minutes
-against the scripted side with the numbers that were set by hand. The result file gets every row at
-once. Trials that it has of the same file are left out.
+against the scripted side with the numbers that were set by hand. With `--passing`, `keep` and
+`best` play keepaway and 2 v 1. The result file gets every row at once. Trials that it has of the same
+tactics are left out.
 """
 
 import argparse
@@ -15,14 +16,21 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, Final
 
+import numpy as np
+
 import rsoccer
 from benches.markdown import table
 from benches.result_files import RESULTS
 from rsoccer import files
 from rsoccer.evaluate import Evaluation
+from rsoccer.evaluate.episodes import EpisodeRunner
+from rsoccer.evaluate.results import bootstrap_interval, bootstrap_rate
+from rsoccer.evaluate.schedule import processors
+from rsoccer.lineup import lineup
 from rsoccer.policies import make_policy
 from rsoccer.policies.evolved import Evolved
 from rsoccer.policies.ssl.team import ScriptedSsl
+from rsoccer.task import LEARN
 from rsoccer.train.run.folder import POLICY_FILE
 
 FILE: Final = RESULTS / "tactics.json"
@@ -64,6 +72,19 @@ TRIALS: Final = (
 )
 """Trials, in the order of the table."""
 
+PASSING: Final[dict[str, tuple[str, dict[str, int]]]] = {
+    "3 v 2": ("SSLKeepaway-v0", {}),
+    "4 v 3": ("SSLKeepaway-v0", {"n_keepers": 4, "n_takers": 3}),
+    "2 v 1": ("SSLPassEnduranceMulti-v1", {"n_opponents": 1}),
+}
+"""Tasks with passes, and their options."""
+PASSERS: Final = ("keep", "best")
+"""Policies that play them."""
+EPISODES: Final = 300
+"""Episodes of each."""
+SEED: Final = 5
+"""Seed of their starts."""
+
 Rows = dict[str, dict[str, Any]]
 """Evaluations by the key of the trial and the name of the policy."""
 
@@ -80,6 +101,60 @@ def measure(policy: str, trial: Trial, threads: int | None) -> Evaluation:
     return rsoccer.evaluate(
         policy, trial.opponent, MATCHES, task=task, sensing=trial.sensing, threads=threads
     )
+
+
+def measure_passing(policy: str, title: str, threads: int | None) -> dict[str, Any]:
+    """Return the means of a policy in a task with passes, with intervals.
+
+    A pass that does not arrive ends an episode of 2 v 1, unless its time is over before. So the
+    share that arrives is that of the passes in passes and such ends.
+
+    Args:
+        policy: the policy.
+        title: one of `PASSING`.
+        threads: threads of the simulator; None for all.
+    """
+    name, options = PASSING[title]
+    task = rsoccer.make_task(name, **options)
+    made = make_policy(policy, task)
+    line_up = lineup(task, LEARN, None, None)
+    count = processors() if threads is None else threads
+    found = EpisodeRunner(task, line_up, made, EPISODES, count).run(EPISODES, SEED)
+    limit = task.max_steps * task.config.time_step
+    failed = (found.seconds < limit - task.config.time_step).astype(np.float64)
+    measures = {"possession": found.metrics["possession"], "passes": found.metrics["passes"]}
+    rng = np.random.default_rng(0)
+    row: dict[str, Any] = {
+        name: asdict(bootstrap_interval([values], rng)) for name, values in measures.items()
+    }
+    if title == "2 v 1":
+        passes = found.metrics["passes"]
+        pairs = np.stack([passes, passes + failed], axis=1)
+        row["arrived"] = asdict(bootstrap_rate([pairs], rng))
+    return row
+
+
+def passing_report() -> str:
+    """Return the table of keepaway and 2 v 1."""
+    rows = []
+    for title in PASSING:
+        for policy, row in load().get(title, {}).items():
+            cells = (_mean(row.get(name), digits) for name, digits in _PASSING_COLUMNS.items())
+            rows.append((title, f"`{policy}`", *cells))
+    header = ("situation", "policy", "possession (s)", "passes", "passes that arrive")
+    return table(header, rows)
+
+
+_PASSING_COLUMNS: Final = {"possession": 1, "passes": 1, "arrived": 3}
+"""Measures, and digits of their cells."""
+
+
+def _mean(row: dict[str, float] | None, digits: int) -> str:
+    """A mean with its interval."""
+    if row is None:
+        return "-"
+    mean, low, high = (f"{row[name]:.{digits}f}" for name in ("mean", "low", "high"))
+    return f"{mean} ({low} to {high})"
 
 
 def load() -> Rows:
@@ -129,6 +204,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("runs", nargs="*", metavar="NAME=FOLDER", help="runs of rsoccer evolve")
     parser.add_argument("--trials", nargs="+", help="keys of trials; all by default")
+    parser.add_argument("--passing", action="store_true", help="play keepaway and 2 v 1, too")
     parser.add_argument("--threads", type=int, help="threads of the simulator")
     given = parser.parse_args(arguments)
     known = {trial.key: trial for trial in TRIALS}
@@ -147,7 +223,13 @@ def main(arguments: Sequence[str] | None = None) -> None:
             found = load()
             found.setdefault(trial.key, {})[name] = {**row, "digest": digest}
             files.write_atomically(FILE, (json.dumps(found, indent=1) + "\n").encode())
-    sys.stdout.write(report() + "\n")
+    for title in PASSING if given.passing else ():
+        for policy in PASSERS:
+            found = load()
+            row = measure_passing(policy, title, given.threads)
+            found.setdefault(title, {})[policy] = row
+            files.write_atomically(FILE, (json.dumps(found, indent=1) + "\n").encode())
+    sys.stdout.write(f"{report()}\n{passing_report()}\n")
 
 
 if __name__ == "__main__":

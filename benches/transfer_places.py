@@ -47,13 +47,14 @@ class Place:
 _ER_FORCE: Final = {
     "name": "ssl_erforce",
     "front_distance": 0.064,
+    "beam_distance": 0.013,
     "max_acceleration": 5.8,
     "max_deceleration": 7.9,
     "max_angular_acceleration": 67.0,
     "max_angular_deceleration": 96.0,
 }
 """Its robots, by `rsoccer identify` from a log of `benches.transfer_logs`; the ball touches their
-dribbler at .0855 m."""
+dribbler at .0855 m, and is pushed at up to .0985 m."""
 PLACES: Final[Mapping[str, Place]] = {
     "grsim": Place(
         "grSim",

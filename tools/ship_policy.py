@@ -105,6 +105,7 @@ def ship(
     if isinstance(policy, Network) and "layout" not in policy.metadata:
         raise ValueError(f"run: expected a policy with its layout in {run}, got none")
     policy.metadata["training"] = json.dumps(_training(run))
+    task = rsoccer.make_task(task.name, **options_of(policy))
     path = trained.FOLDER / trained.file_name(task.name, variant_of(policy))
     candidate = run / path.name
     _save(policy, candidate)  # scores are those of the rounded weights
@@ -172,8 +173,12 @@ def _put(candidate: Path, path: Path) -> None:
 
 def shipped() -> dict[str, Path]:
     """Return the files of the package by the names that `--again` takes."""
-    robust = trained.list_trained(trained.ROBUST)
-    return trained.list_trained() | {f"{n}:{trained.ROBUST}": path for n, path in robust.items()}
+    variants = (trained.ROBUST, trained.OPPONENTS)
+    return trained.list_trained() | {
+        f"{name}:{variant}": path
+        for variant in variants
+        for name, path in trained.list_trained(variant).items()
+    }
 
 
 def variant_of(policy: Shipped) -> str | None:
@@ -182,7 +187,20 @@ def variant_of(policy: Shipped) -> str | None:
     Args:
         policy: the policy of a run.
     """
-    return None if policy.sensing is None else trained.ROBUST
+    if policy.sensing is not None:
+        return trained.ROBUST
+    return trained.OPPONENTS if options_of(policy) else None
+
+
+def options_of(policy: Shipped) -> dict[str, int]:
+    """Return the options of the task with which a policy is measured: those that give opponents.
+
+    Args:
+        policy: the policy.
+    """
+    count = policy.task_options.get("n_opponents", 0)
+    default = getattr(rsoccer.make_task(policy.task_name), "n_opponents", 0)
+    return {} if count == default else {"n_opponents": count}
 
 
 def senses_of(policy: Shipped) -> list[str]:
@@ -213,7 +231,7 @@ def measure_again(name: str, starts: int = STARTS, threads: int | None = None) -
     policy = trained.load_file(path)
     # A policy that was measured on its own names "-" as its opponent.
     opponents = list(dict.fromkeys(s.opponent for s in before if s.opponent != "-"))
-    task = rsoccer.make_task(policy.task_name)
+    task = rsoccer.make_task(policy.task_name, **options_of(policy))
     scores = _scores(path, task, opponents, starts, threads, senses_of(policy))
     print("before:", *before, "now:", *scores, sep="\n    ")
     policy.metadata["scores"] = scores_text(scores)

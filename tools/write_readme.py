@@ -256,6 +256,7 @@ PARTS: dict[str, Callable[[], str]] = {
     "policies": policy_names,
     "referee_choices": referee_tables.choices,
     "referee_numbers": referee_tables.numbers,
+    "passing": tactics.passing_report,
     "policy_table": policy_table,
     "protocol_codes": codes.table_of_codes,
     "protocol_counts": fields.counts,

@@ -17,6 +17,7 @@ from rsoccer.policies import trained
 from rsoccer.policies.evolved import Evolved
 from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import Score, read_scores, scores_text
+from rsoccer.task import Task
 from rsoccer.tasks import VssSelfPlay
 from rsoccer.train.distillation import DistillArgs
 from tests.policies.networks import network_for
@@ -25,6 +26,7 @@ MAX_SIZE = 144 * 1024
 SHIPPED = trained.list_trained()
 FILES: list[tuple[str, str | None, Path]] = [(name, None, path) for name, path in SHIPPED.items()]
 FILES += [(name, "robust", path) for name, path in trained.list_trained("robust").items()]
+FILES += [(name, "opponents", path) for name, path in trained.list_trained("opponents").items()]
 IDS = ["-".join(filter(None, file[:2])) for file in FILES]
 
 
@@ -197,6 +199,11 @@ def test_scores_are_kept_in_the_metadata(folder: Path) -> None:
 # -- files in the package -----------------------------------------------------------------------
 
 
+def task_of(name: str, variant: str | None) -> Task:
+    """The task that a file of the package is for."""
+    return rsoccer.make_task(name, **({"n_opponents": 1} if variant == "opponents" else {}))
+
+
 def test_there_is_a_policy_for_teams() -> None:
     assert trained.TEAM_TASK in SHIPPED
 
@@ -205,10 +212,10 @@ def test_there_is_a_policy_for_teams() -> None:
 def test_a_shipped_policy_is_small_and_fits_its_task(
     name: str, variant: str | None, path: Path
 ) -> None:
-    task = rsoccer.make_task(name)
+    task = task_of(name, variant)
     assert path.stat().st_size <= MAX_SIZE
-    policy = trained.load_best(task, variant)
-    assert (policy.sensing is None) == (variant is None)
+    policy = trained.load_best(task, "robust" if variant == "robust" else None)
+    assert (policy.sensing is None) == (variant != "robust")
     assert policy.task_name == name
     training = json.loads(policy.metadata["training"])
     assert set(training) == {"command", "samples", "seed", "package", "physics"}
@@ -255,24 +262,28 @@ def test_some_tasks_have_a_robust_policy() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "policy", "said"),
+    ("name", "variant", "said"),
     [
-        (name, ":".join(filter(None, ("best", variant))), score)
+        (name, variant, score)
         for name, variant, path in FILES
         for score in trained.list_scores(path)
     ],
-    ids=lambda value: value if isinstance(value, str) else f"{value.opponent}-{value.sensing}",
+    ids=lambda value: f"{value.opponent}-{value.sensing}" if isinstance(value, Score) else value,
 )
-def test_a_shipped_policy_scores_what_its_file_says(name: str, policy: str, said: Score) -> None:
+def test_a_shipped_policy_scores_what_its_file_says(
+    name: str, variant: str | None, said: Score
+) -> None:
     """Within four standard errors of these few matches."""
     # Whole matches of ten minutes take as long as many episodes.
-    matches = 4 if hasattr(rsoccer.make_task(name), "referee_config") else 40
+    task = task_of(name, variant)
+    matches = 4 if hasattr(task, "referee_config") else 40
+    policy = "best:robust" if variant == "robust" else "best"
     opponent = None if said.opponent == "-" else said.opponent
     if opponent is not None and " " in opponent:
         opponent = None  # several policies: the task's own
     sensing = said.sensing or None
     found = rsoccer.evaluate(
-        policy, opponent, matches, seed=1, task=name, worlds=40, sensing=sensing
+        policy, opponent, matches, seed=1, task=task, worlds=40, sensing=sensing
     )
     standard_error = (said.high - said.low) / (2 * 1.96) * math.sqrt(said.matches / matches)
     assert found.metric == said.metric

@@ -56,15 +56,16 @@ def test_given_values_replace_recommended_ones(monkeypatch: pytest.MonkeyPatch) 
 
 TRAINED = trained.list_trained()
 EVOLVED = [name for name, path in TRAINED.items() if is_tactics(read_file(path)[1])]
+FILES_EVOLVED = {name: TRAINED[name] for name in EVOLVED} | trained.list_trained("opponents")
 
 
-@pytest.mark.parametrize("name", EVOLVED)
+@pytest.mark.parametrize("name", FILES_EVOLVED)
 def test_learned_tactics_were_made_with_the_settings_of_their_task(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     received: list[EvolveArgs] = []
     monkeypatch.setattr(evolve_command, "evolve", received.append)
-    _, metadata = read_file(trained.list_trained()[name])
+    _, metadata = read_file(FILES_EVOLVED[name])
     training = json.loads(metadata["training"])
     assert cli.main(shlex.split(training["command"])[1:]) == 0
     assert received[0].to_json() == EvolveArgs.for_task(name, seed=training["seed"]).to_json()

@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 from rsoccer import Sensing
+from rsoccer.policies.evolved import Evolved
+from rsoccer.policies.trained import FOLDER
 from tests.wasm.engine import numbers, run
 from tools.playground.native import NativeMatch
 
@@ -23,7 +25,9 @@ SENSES = {
 }
 PLAY = """
 const match = engine.newMatch(%s);
-match.setScripted(0, 1);
+const file = %s;
+if (file) match.setPolicy(0, read(file));
+else match.setScripted(0, 1);
 match.setScripted(1, 0.6);
 const kept = { rows: [], known: [], games: [], commands: [] };
 for (let step = 0; step <= %d; step++) {
@@ -46,21 +50,28 @@ def test_golden_hashes_are_those_of_native_code() -> None:
 
 
 @pytest.mark.parametrize(
-    ("field", "robots", "senses"),
-    [("ssl_b", 6, {}), ("ssl_a", 11, {}), ("ssl_challenge", 3, SENSES)],
+    ("field", "robots", "senses", "policy"),
+    [
+        ("ssl_b", 6, {}, None),
+        ("ssl_b", 6, {}, "SSLMatch-v0.safetensors"),
+        ("ssl_a", 11, {}, None),
+        ("ssl_challenge", 3, SENSES, None),
+    ],
 )
 def test_matches_have_the_bytes_of_native_matches(
-    field: str, robots: int, senses: dict[str, float]
+    field: str, robots: int, senses: dict[str, float], policy: str | None
 ) -> None:
     """Native physics, referee and teams, driven from Python, give what the module gives."""
     setup = {"field": field, "blue": robots, "yellow": robots, "seed": SEED}
     setup["conditions"] = {"sensing": senses}
-    played = run(PLAY % (json.dumps(setup), STEPS))
+    path = None if policy is None else FOLDER / policy
+    played = run(PLAY % (json.dumps(setup), json.dumps(path and str(path)), STEPS))
     rows, known = numbers(played["rows"]), numbers(played["known"])
     games, commands = numbers(played["games"]), numbers(played["commands"])
 
     sensing = Sensing("none", **senses) if senses else None
-    native = NativeMatch(field, robots, (1.0, 0.6), SEED, sensing)
+    tactics = None if path is None else Evolved.load(path).tactics
+    native = NativeMatch(field, robots, (1.0, 0.6), SEED, sensing, tactics)
     for step in range(STEPS + 1):
         if step:
             native.step()

@@ -89,7 +89,7 @@ def test_wrong_input_is_refused_by_name() -> None:
         tried(() => engine.newMatch({field: "ssl_b", blue: 0, yellow: 1}));
         const match = engine.newMatch({field: "vss_3v3", blue: 3, yellow: 3});
         tried(() => match.setScripted(0, 1));
-        tried(() => match.setNetwork(0, new Uint8Array([1, 2, 3])));
+        tried(() => match.setPolicy(0, new Uint8Array([1, 2, 3])));
         tried(() => match.change({sensing: {frame_loss: 2}}));
         tried(() => match.resume(new Float32Array(3)));
         tried(() => match.control(9, null));

@@ -19,7 +19,7 @@ STEPS = 700
 PLAY = """
 const match = engine.newMatch(%s);
 const file = read(%s);
-for (const team of [0, 1]) match.setNetwork(team, file);
+for (const team of [0, 1]) match.setPolicy(team, file);
 const robots = %d;
 const kept = { rows: [match.row("state")].map(base64), decisions: [] };
 for (let step = 0; step < %d; step++) {
@@ -99,7 +99,7 @@ def test_a_policy_of_another_match_is_refused_with_both_layouts() -> None:
     error = run(
         f"""
         const match = engine.newMatch({{field: "ssl_b", blue: 6, yellow: 6}});
-        try {{ match.setNetwork(0, read({file})); }} catch (error) {{ return error.message; }}
+        try {{ match.setPolicy(0, read({file})); }} catch (error) {{ return error.message; }}
         """
     )
     assert "VSSSelfPlay-v0" in error

@@ -37,6 +37,7 @@ class NativeMatch:
         skills: tuple[float, float],
         seed: int,
         sensing: Sensing | None = None,
+        tactics: Floats | None = None,
     ) -> None:
         """Begin a match.
 
@@ -46,6 +47,7 @@ class NativeMatch:
             skills: skill of blue and of yellow, 0 to 1.
             seed: seed of the match, 0 to 2**32 - 1.
             sensing: senses of the robots; None if they know the true state.
+            tactics: (tactics,) numbers by which blue plays; None for those that were set by hand.
         """
         if sensing is not None:
             sensing = with_number(sensing, "forecast", 1.0)
@@ -57,7 +59,8 @@ class NativeMatch:
         self._teams = [_core.ScriptedTeam(config, skill) for skill in skills]
         self._memories = [np.zeros((1, team.memory_size), np.float32) for team in self._teams]
         for nth, (team, memory) in enumerate(zip(self._teams, self._memories, strict=True)):
-            team.begin(memory, [_word(seed, _TEAMS + nth) & 0xFFFFFFFF])
+            own = None if nth or tactics is None else tactics[None]
+            team.begin(memory, [_word(seed, _TEAMS + nth) & 0xFFFFFFFF], own)
         self.row = np.zeros((1, row_size(robots, robots)), np.float32)
         self._simulator.read(self.row)
         places = _word(seed, _PLACES)

@@ -73,7 +73,7 @@ class Match {
     this.engine.call("set_side", this.handle, team, skill, 0);
   }
 
-  setNetwork(team, file) {
+  setPolicy(team, file) {
     this.engine.call("set_side", this.handle, team, 0, this.engine.give(file));
   }
 

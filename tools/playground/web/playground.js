@@ -109,7 +109,7 @@ class Playground {
     const side = choices.sides[team];
     if (side === "scripted") match.setScripted(team, Number(choices.skills[team]));
     else if (side === "idle") match.setIdle(team);
-    else match.setNetwork(team, this.files[side.slice(5)] ?? this.policyFile(side));
+    else match.setPolicy(team, this.files[side.slice(5)] ?? this.policyFile(side));
   }
 
   showNames() {
@@ -173,7 +173,7 @@ class Playground {
 
   /** Let blue play a policy file; one that cannot play here is not kept. */
   addPolicy(name, bytes) {
-    if (!this.attempt(() => this.match.setNetwork(0, bytes))) return;
+    if (!this.attempt(() => this.match.setPolicy(0, bytes))) return;
     this.files[name] = bytes;
     this.choices.sides[0] = `file:${name}`;
     this.fillSides();

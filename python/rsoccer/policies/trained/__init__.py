@@ -23,6 +23,9 @@ BEST: Final = "best"
 """Name of the trained policy of the task that is played."""
 ROBUST: Final = "robust"
 """Word after the colon for the policy for late and noisy senses."""
+OPPONENTS: Final = "opponents"
+"""Word in the names of files for tasks that have opponents by an option, `n_opponents`: `best`
+plays these tasks with them."""
 TEAM_TASK: Final = "VSSMulti-v0"
 """Task whose policy also plays tasks without a file of their own that have its observations.
 
@@ -43,7 +46,7 @@ def file_name(task: str, variant: str | None = None) -> str:
 
     Args:
         task: name of the task.
-        variant: "robust"; None for the policy that knows the true state.
+        variant: "robust" or "opponents"; None for the policy that knows the true state.
     """
     return f"{task}{_ending(variant)}"
 
@@ -52,8 +55,8 @@ def list_trained(variant: str | None = None) -> dict[str, Path]:
     """Return the files by the task that they were made for, in alphabetical order.
 
     Args:
-        variant: "robust" for those for late and noisy senses; None for those that know the true
-            state.
+        variant: "robust" for those for late and noisy senses, "opponents" for those against
+            opponents that a task has by an option; None for those that know the true state.
     """
     ending = _ending(variant)
     found = {path.name.removesuffix(ending): path for path in sorted(FOLDER.glob(f"*{ending}"))}
@@ -79,16 +82,19 @@ def load_best(task: Task, detail: str | None = None) -> Network | Evolved:
     """
     variant, mode = _variant_and_mode(detail)
     name = BEST if variant is None else f"{BEST}:{variant}"
+    against = list_trained(OPPONENTS).get(task.name)
+    if (
+        variant is None
+        and against is not None
+        and hasattr(task, "n_opponents")
+        and task.n_opponents
+    ):
+        return _loaded(name, against, mode, task)
     files = list_trained(variant)
     skills = SKILLS.get(task.name)
     source = task.name if task.name in files else skills
     if source in files:
-        try:
-            policy = load_file(files[source], mode, task)
-            policy.check_fits(task, task.layout.size)
-        except ValueError as error:
-            raise ValueError(f"{name}: {error}") from error
-        return policy
+        return _loaded(name, files[source], mode, task)
     names = list(files)
     if TEAM_TASK in files:
         network = Network.load(files[TEAM_TASK], mode)
@@ -100,6 +106,16 @@ def load_best(task: Task, detail: str | None = None) -> Network | Evolved:
         f"{name}: expected a task with {kind} policy, got {task.name}; "
         f"there are policies for {', '.join(names) or 'no task'}"
     )
+
+
+def _loaded(name: str, path: Path, mode: str | None, task: Task) -> Network | Evolved:
+    """The policy of a file, which fits a task."""
+    try:
+        policy = load_file(path, mode, task)
+        policy.check_fits(task, task.layout.size)
+    except ValueError as error:
+        raise ValueError(f"{name}: {error}") from error
+    return policy
 
 
 def load_best_network(task: Task, detail: str | None = None) -> Network:

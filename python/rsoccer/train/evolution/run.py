@@ -18,6 +18,7 @@ from rsoccer.files import write_atomically
 from rsoccer.lineup import lineup
 from rsoccer.policies import make_policy
 from rsoccer.policies.evolved import SCRIPTS, Evolved
+from rsoccer.policies.trained import list_trained, load_file
 from rsoccer.registry import task_with_options
 from rsoccer.task import LEARN, Task
 from rsoccer.train.args import SETTINGS_FILE
@@ -136,7 +137,8 @@ def _first(args: EvolveArgs, task: Task) -> Floats | None:
     """Tactics to begin with; None for those that were set by hand."""
     if args.first is None:
         return None
-    policy = make_policy(args.first, task)
+    path = list_trained().get(args.first)
+    policy = make_policy(args.first, task) if path is None else load_file(path)
     if not isinstance(policy, Evolved) or policy.metadata["script"] != args.script:
         raise ValueError(f"first: expected tactics of {args.script}, got {args.first}")
     return policy.tactics

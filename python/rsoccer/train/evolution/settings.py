@@ -21,7 +21,14 @@ _RECOMMENDED: Final[Mapping[str, Mapping[str, Any]]] = {
         "opponents": ("scripted:0.5", "scripted"),
     },
     "SSLKeepaway-v0": {"script": "keep", "matches": 200},
-    "SSLPassEnduranceMulti-v1": {"script": "keep", "matches": 200},
+    # From scratch most passes fail, and scores say little.
+    "SSLPassEnduranceMulti-v1": {
+        "script": "keep",
+        "first": "SSLKeepaway-v0",
+        "task_options": {"n_opponents": 1},
+        "generations": 15,
+        "matches": 300,
+    },
 }
 """Values of settings by name, by the name of the task; whole matches take two minutes."""
 
@@ -41,7 +48,8 @@ class EvolveArgs:
     script: str = "scripted"
     """script whose numbers change: scripted, the whole SSL team, or keep"""
     first: str | None = None
-    """file of tactics to begin with, or best; None begins with those that were set by hand"""
+    """tactics to begin with: those of a policy file, best, or another task for its best; None
+    begins with those that were set by hand"""
     out: Path = Path("out/evolve")
     """folder for the policy, the log and the state from which the run resumes"""
     task_options: Mapping[str, Any] = field(default_factory=dict)
