@@ -3,8 +3,8 @@
 A name and the folder of a run of `rsoccer evolve` stand for the policy of the run; `best` and
 `best:robust`, without a folder, are those of the package. Each plays whole matches of two minutes
 against the scripted side with the numbers that were set by hand. With `--passing`, `keep` and
-`best` play keepaway and 2 v 1. The result file gets every row at once. Trials that it has of the same
-tactics are left out.
+`best` play keepaway and 2 v 1. The result file gets every row at once. Trials that it has of the
+same tactics are left out.
 """
 
 import argparse

@@ -244,7 +244,7 @@ class NetworkSimulator(NetworkStepper, Placer):
             self._settle()
         messages = connection.placement(wanted, ball_only=ball_only)
         sight, hidden = connection.sight, self._is_hidden(wanted)
-        state = {"seen": -1, "hidden": False}
+        state = {"seen": -1}
 
         def is_placed() -> bool:
             """Put bodies, again if need be, and look once they must be there."""
@@ -260,16 +260,23 @@ class NetworkSimulator(NetworkStepper, Placer):
             sight.read(present.rows)
             if hidden and not sight.has_ball and passed >= FRAMES_TO_ACT + FRAMES_TO_SEE:
                 present.ball.data[:] = wanted.ball.data
-                state["hidden"] = True
             return _is_there(present, wanted, ball_only=ball_only)
 
         connection.stand(is_placed, "bodies where they were put")
         connection.forget()
         self._let_pass(2)
-        if state["hidden"] and not sight.has_ball:
+        if hidden:
+            self._suppose_ball(wanted)
+        return self.read(out)
+
+    def _suppose_ball(self, wanted: Frame) -> None:
+        """Take the ball to lie where it was put at a robot, unless a camera sees it soon."""
+        sight = self.connection.sight
+        until = sight.frames + FRAMES_TO_SEE
+        self.connection.stand(lambda: sight.has_ball or sight.frames >= until, "frames")
+        if not sight.has_ball:
             x, y = wanted.ball.position[0].tolist()
             sight.suppose_ball((x, y))
-        return self.read(out)
 
     def _is_hidden(self, wanted: Frame) -> bool:
         """Whether the ball is put to rest at a robot, where cameras may not see it."""
