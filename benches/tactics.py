@@ -48,13 +48,13 @@ class Trial:
     """Matches against a script."""
 
     title: str
-    """what differs from a match of six without senses"""
+    """size of the teams, and senses"""
     opponent: str
     """policy of the other team"""
     options: tuple[tuple[str, Any], ...] = ()
     """options of the task"""
     sensing: str | None = None
-    """what robots know"""
+    """senses of the robots; None if they know the true state"""
 
     @property
     def key(self) -> str:

@@ -22,6 +22,7 @@ SECONDS: Final = 1.5  # of play before the moment that is drawn
 
 CONTROLLERS: Final[dict[str, Controllers]] = {
     "VSS-v0": {"blue": "chase", "yellow": "ou"},
+    "SSLMatch-v0": {"blue": "best", "yellow": "scripted"},
     "VSSMatch-v0": {"blue": "best", "yellow": "scripted"},
     "VSSMulti-v0": {"blue": "chase", "yellow": "ou"},
     "VSSSelfPlay-v0": {"blue": "chase", "yellow": "chase"},

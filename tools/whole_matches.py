@@ -28,10 +28,10 @@ class WholeMatch:
 
 
 WHOLE_MATCHES: Final = {
-    "SSLMatch-v0": WholeMatch("scripted", "scripted:0.5"),
+    "SSLMatch-v0": WholeMatch("best", "scripted"),
     "VSSMatch-v0": WholeMatch("best", "scripted"),
 }
-"""Matches by task: six SSL robots a side, and three of VSSS, of which one side has learned."""
+"""Matches by task: six SSL robots a side, and three of VSSS; blue has learned."""
 
 
 def record(name: str, seconds: float = SECONDS) -> Replay:

@@ -367,7 +367,7 @@ def test_a_dropped_policy_plays_and_a_wrong_one_is_refused(tmp_path: Path) -> No
         tmp_path,
     )
     assert "VSSSelfPlay-v0" in result["refused"][0]
-    assert result["refused"][1:] == ["scripted", ["scripted", "idle"], False, True]
+    assert result["refused"][1:] == ["scripted", ["scripted", "best", "idle"], False, True]
     assert result["side"] == "file:mine"
     assert result["hidden"]
     assert result["size"] > 1000

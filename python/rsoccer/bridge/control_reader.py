@@ -163,7 +163,7 @@ class ControlReader:
 
 
 def _kind(data: bytes, team: int) -> tuple[int, int, bytes]:
-    """What messages of a client that differ in numbers alone have in common, at no cost."""
+    """Kind of a message, the same for those of a client that differ in numbers alone."""
     return team, len(data), data[:_HEAD]
 
 

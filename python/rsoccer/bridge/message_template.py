@@ -49,7 +49,7 @@ class MessageTemplate:
             robots: number of robots in a state row.
 
         Raises:
-            ValueError: bytes from which the places cannot be told, as of another encoder.
+            ValueError: bytes in which the places cannot be found, as of another encoder.
         """
         marked = simulation_pb2.RobotControl()
         marked.CopyFrom(message)
