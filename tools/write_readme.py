@@ -20,6 +20,7 @@ from benches.learning.reporting import report as learning
 from benches.markdown import filled, table
 from rsoccer import policies
 from rsoccer.policies import trained
+from rsoccer.policies.evolved import is_tactics
 from rsoccer.policies.policy_file import read_file
 from rsoccer.tasks import legacy_names
 from tools import leaderboard, referee_scenes, referee_tables, senses_tables, soak_matches
@@ -132,7 +133,8 @@ def policy_table() -> str:
 def trained_table() -> str:
     """Return the table of the trained policies in the package and of their scores."""
     header = ("task", "samples", "opponent", "metric", "mean", "95% interval", "matches")
-    return table(header, [cells for _, cells in _scores(None)])
+    rows = [cells for variant in (None, trained.OPPONENTS) for _, cells in _scores(variant)]
+    return table(header, sorted(rows, key=lambda cells: cells[0]))
 
 
 def robust_table() -> str:
@@ -146,13 +148,17 @@ def _scores(variant: str | None) -> list[tuple[str, tuple[str, ...]]]:
     """Senses and cells of each score of the trained policies of a variant."""
     rows: list[tuple[str, tuple[str, ...]]] = []
     for name, path in trained.list_trained(variant).items():
-        training = json.loads(read_file(path)[1]["training"])
-        millions = training["samples"] / 1e6
+        metadata = read_file(path)[1]
+        samples = json.loads(metadata["training"])["samples"]
+        millions = samples / 1e6
         made = f"{millions:.0f} M" if millions >= 1.0 else f"{millions:.2g} M"
+        if is_tactics(metadata):
+            made = f"{samples:,} matches"
+        options = f", {metadata['task_options']}" if variant == trained.OPPONENTS else ""
         for score in trained.list_scores(path):
             interval = f"{score.low:.3f} to {score.high:.3f}"
             cells = (f"`{score.opponent}`", f"`{score.metric}`", f"{score.score:.3f}", interval)
-            rows.append((score.sensing, (f"`{name}`", made, *cells, str(score.matches))))
+            rows.append((score.sensing, (f"`{name}`{options}", made, *cells, str(score.matches))))
     return rows
 
 

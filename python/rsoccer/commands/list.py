@@ -29,6 +29,7 @@ class List(Imports):
         write(f"policies: {', '.join(_usable_policies())}, or the path of a policy file")
         write("best is the trained policy of the task; its mean scores, with 95% intervals:")
         _write_trained(None)
+        _write_trained(trained.OPPONENTS)
         write("best:robust has learned the task with late and noisy senses, and scores:")
         _write_trained(trained.ROBUST)
         examples = (f"{name}:0.5" for name in policies.list_policies_with_skill())
@@ -38,8 +39,9 @@ class List(Imports):
 
 def _write_trained(variant: str | None) -> None:
     """Print the facts of the trained policies of a variant."""
+    suffix = " with n_opponents" if variant == trained.OPPONENTS else ""
     for name, path in trained.list_trained(variant).items():
-        write("\n".join(f"    {name}: {fact}" for fact in _facts(path)))
+        write("\n".join(f"    {name}{suffix}: {fact}" for fact in _facts(path)))
 
 
 def _usable_policies() -> list[str]:
