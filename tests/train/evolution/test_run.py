@@ -64,14 +64,15 @@ def test_a_run_that_goes_on_is_the_same_as_one_without_a_stop(tmp_path: Path) ->
     assert (Evolved.load(other).tactics != expected).any()
 
 
+@pytest.mark.parametrize("stopped_at", [1, 2])
 def test_a_generation_that_was_stopped_before_its_state_is_played_again(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, stopped_at: int
 ) -> None:
     given = args(tmp_path / "run", step_size=20.0)
     keep = run._keep
 
     def stop(args: EvolveArgs, strategy: Strategy, generation: int, files: dict[str, str]) -> None:
-        if generation == 2:
+        if generation == stopped_at:
             raise KeyboardInterrupt
         keep(args, strategy, generation, files)
 
@@ -80,8 +81,9 @@ def test_a_generation_that_was_stopped_before_its_state_is_played_again(
         evolve(given)
     stopped = Evolved.load(tmp_path / "run" / "policy.safetensors").tactics
     monkeypatch.undo()
-    path = evolve(replace(given, resume=True))
+    path = evolve(replace(given, resume=True, generations=stopped_at))
     np.testing.assert_array_equal(Evolved.load(path).tactics, stopped)
+    evolve(replace(given, resume=True))
     assert [row["generation"] for row in rows(tmp_path / "run")] == ["1", "2"]
 
 

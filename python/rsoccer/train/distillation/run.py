@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import itertools
 import json
 import math
@@ -33,7 +32,7 @@ from rsoccer.train.distillation.settings import DistillArgs
 from rsoccer.train.distillation.student import Normalizer, new_student
 from rsoccer.train.network import initial_policy
 from rsoccer.train.run.folder import POLICY_FILE
-from rsoccer.train.run.log import FILE_NAME as LOG_FILE
+from rsoccer.train.run.log import append_row
 
 FINAL_RATE: Final = 0.05
 """Step size at the end of a run, relative to that at first."""
@@ -228,10 +227,5 @@ def _plain(task: str) -> ObservationStack:
 
 def _log(folder: Path, row: dict[str, float]) -> None:
     """Write a row of the log, and show it."""
-    path = folder / LOG_FILE
-    with path.open("a", newline="") as file:
-        writer = csv.DictWriter(file, list(row))
-        if file.tell() == 0:
-            writer.writeheader()
-        writer.writerow(row)
+    append_row(folder, row)
     sys.stderr.write(f"{row['samples']:,.0f} samples, loss {row['loss']:.4f}\n")

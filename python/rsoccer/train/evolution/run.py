@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import itertools
 import json
 import sys
@@ -26,6 +25,7 @@ from rsoccer.train.evolution.settings import EvolveArgs
 from rsoccer.train.evolution.strategy import Strategy, standardized
 from rsoccer.train.run.folder import POLICY_FILE, check_empty, digests_of, locked
 from rsoccer.train.run.log import FILE_NAME as LOG_FILE
+from rsoccer.train.run.log import append_row
 from rsoccer.view import SIDES
 
 STATE_FILE: Final = "evolution.json"
@@ -68,6 +68,7 @@ def run_evolution(args: EvolveArgs) -> Path:
             write_atomically(
                 args.out / SETTINGS_FILE, json.dumps(args.to_json(), indent=2).encode()
             )
+            _keep(args, strategy, 0, policy_files)
         _trim_log(args.out, done)
         for generation in range(done, args.generations):
             start = time.monotonic()
@@ -194,12 +195,7 @@ def _trim_log(folder: Path, generations: int) -> None:
 
 def _log(folder: Path, row: dict[str, Any]) -> None:
     """Write a row of the log, and show it."""
-    path = folder / LOG_FILE
-    with path.open("a", newline="") as file:
-        writer = csv.DictWriter(file, list(row))
-        if file.tell() == 0:
-            writer.writeheader()
-        writer.writerow(row)
+    append_row(folder, row)
     shown = {name: value for name, value in row.items() if name not in ("generation", "samples")}
     texts = (f"{name} {value:.2f}" for name, value in shown.items())
     sys.stderr.write(f"generation {row['generation']}: {', '.join(texts)}\n")

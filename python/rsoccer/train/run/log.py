@@ -5,7 +5,9 @@ from __future__ import annotations
 import csv
 import sys
 from collections import deque
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -118,3 +120,17 @@ def read_progress(folder: Path) -> dict[str, Array]:
     if not rows:
         raise ValueError(f"{folder / FILE_NAME} holds no rows yet")
     return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
+
+
+def append_row(folder: Path, row: Mapping[str, Any]) -> None:
+    """Append a row to the log of a run in which all rows have the same columns.
+
+    Args:
+        folder: folder of the run.
+        row: values by column.
+    """
+    with (folder / FILE_NAME).open("a", newline="") as file:
+        writer = csv.DictWriter(file, list(row))
+        if file.tell() == 0:
+            writer.writeheader()
+        writer.writerow(row)
