@@ -183,15 +183,19 @@ def report(title: str, timings: Sequence[Timing], *, is_timed: bool = True) -> s
         timings: timing of each client.
         is_timed: whether frames have a time on the wall at which they are due.
     """
-    header = (title, "frames", *(("late",) if is_timed else ()), "lost")
-    header += ("latest", "speed") if is_timed else ("speed",)
+    columns = ("frames", "late", "lost", "latest", "speed")
+    shown = [name for name in columns if is_timed or name not in ("late", "latest")]
     rows = []
     for team, timing in zip(("one team", "the other"), timings, strict=True):
-        late = f"{timing.late} ({timing.late / timing.frames:.2%})"
-        latest, speed = f"{1000 * timing.latest:.1f} ms", f"{timing.speed:.2f}"
-        begin = (team, f"{timing.frames}", *((late,) if is_timed else ()), f"{timing.lost}")
-        rows.append((*begin, *((latest,) if is_timed else ()), speed))
-    return table(header, rows)
+        cells = {
+            "frames": f"{timing.frames}",
+            "late": f"{timing.late} ({timing.late / timing.frames:.2%})",
+            "lost": f"{timing.lost}",
+            "latest": f"{1000 * timing.latest:.1f} ms",
+            "speed": f"{timing.speed:.2f}",
+        }
+        rows.append((team, *(cells[name] for name in shown)))
+    return table((title, *shown), rows)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

@@ -221,7 +221,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
             sys.stderr.write(f"{trial.key}: {name}\n")
             row = asdict(measure(policy, trial, given.threads))
             found = load()
-            found.setdefault(trial.key, {})[name] = {**row, "digest": digest}
+            found.setdefault(trial.key, {})[name] = {**row, "policy": name, "digest": digest}
             files.write_atomically(FILE, (json.dumps(found, indent=1) + "\n").encode())
     for title in PASSING if given.passing else ():
         for policy in PASSERS:

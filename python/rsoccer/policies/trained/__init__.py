@@ -82,14 +82,10 @@ def load_best(task: Task, detail: str | None = None) -> Network | Evolved:
     """
     variant, mode = _variant_and_mode(detail)
     name = BEST if variant is None else f"{BEST}:{variant}"
-    against = list_trained(OPPONENTS).get(task.name)
-    if (
-        variant is None
-        and against is not None
-        and hasattr(task, "n_opponents")
-        and task.n_opponents
-    ):
-        return _loaded(name, against, mode, task)
+    if variant is None and hasattr(task, "n_opponents") and task.n_opponents:
+        against = list_trained(OPPONENTS).get(task.name)
+        if against is not None:
+            return _loaded(name, against, mode, task)
     files = list_trained(variant)
     skills = SKILLS.get(task.name)
     source = task.name if task.name in files else skills
