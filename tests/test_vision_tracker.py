@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rsoccer import SimConfig
+from rsoccer import Sensing, SimConfig, Simulator
 from rsoccer._core import ROBOT_COLUMNS, VisionTracker
 from rsoccer.frame import Frame
 
@@ -74,6 +74,51 @@ def test_reports_of_robots_that_do_not_exist_are_refused() -> None:
     with pytest.raises(OverflowError):
         tracker.take(0.0, NO_BALL, NOBODY, [-1])
     assert tracker.time is None
+
+
+def test_drives_carry_robots_whose_commands_are_known() -> None:
+    """Saturated commands that change, and noise of 2 mm and 0.02 rad."""
+    config = SimConfig("ssl_b", 1, 0)
+    simulator, rng = Simulator(config), np.random.default_rng(0)
+    row = np.empty((1, config.row_size), np.float32)
+    simulator.read(row)
+    noise = Sensing(robot_position_noise=0.002, heading_noise=0.02, frame_rate=40.0)
+    trackers = [VisionTracker(config.with_sensing(noise)) for _ in range(2)]
+    errors: list[list[float]] = [[], []]
+    frame = Frame(row, 1, 0)
+    for step in range(160):
+        commands = np.zeros((1, 1, 6), np.float32)
+        phase = step // 8 % 4
+        commands[0, 0, :3] = [[9, 0, 30], [-9, 9, 0], [0, -9, -30], [0, 0, 0]][phase]
+        assert trackers[1].send(step / 40, commands[0], [0])
+        simulator.step(commands, row)
+        place, angle = frame.robots.position[0, 0], np.arctan2(*frame.robots.heading[0, 0, ::-1])
+        angle += rng.normal(0.0, 0.02)
+        pose = [0.0, *(place + rng.normal(0.0, 0.002, 2)), np.cos(angle), np.sin(angle)]
+        for tracker, found in zip(trackers, errors, strict=True):
+            tracker.take((step + 1) / 40, NO_BALL, np.array([pose], np.float32))
+            known = np.empty_like(row)
+            tracker.read(known)
+            robots = Frame(known, 1, 0).robots
+            found.append(float(robots.angular_velocity[0, 0] - frame.robots.angular_velocity[0, 0]))
+    without, given = (float(np.std(found)) for found in errors)
+    assert given < 0.5 * without
+
+
+def test_wrong_commands_are_refused() -> None:
+    tracker = VisionTracker(CONFIG)
+    commands = np.zeros((2, 6), np.float32)
+    with pytest.raises(ValueError, match="robots must have indices from 0 to 1, got 2"):
+        tracker.send(0.0, commands, [2])
+    with pytest.raises(ValueError, match="time must be finite"):
+        tracker.send(np.inf, commands, [0])
+    with pytest.raises(ValueError, match="commands must be finite"):
+        tracker.send(0.0, commands + np.nan, [0])
+    with pytest.raises(ValueError, match="commands must have shape"):
+        tracker.send(0.0, commands[:1], [0])
+    assert tracker.send(1.0, commands, [0])
+    assert not tracker.send(0.5, commands, [0]), "older than the last ones"
+    assert tracker.send(1.0, commands, [0, 1])
 
 
 def test_a_frame_of_the_past_is_refused() -> None:

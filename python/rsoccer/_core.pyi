@@ -2135,6 +2135,28 @@ class VisionTracker:
     def robots_in_sight(self) -> list[int]:
         """Indices of the robots that were seen in the last half second."""
 
+    def send(self, time: float, commands: NDArray[np.float32], robots: list[int]) -> bool:
+        """Take note of commands that were sent.
+
+        From the first on, the drives of the models carry the robots that get them from one frame to
+        the next, where others keep their velocities. So the noise of cameras is averaged over a
+        longer time. Commands act `command_delay` of `config.sensing` after they were sent.
+
+        Args:
+            time: Time at which they were sent, s, on the clock of the frames.
+            commands: (m, command) commands of all robots, float32.
+            robots: Indices of the robots to which they were sent.
+
+        Returns:
+            False if they are older than the last ones; then nothing has changed.
+
+        Raises:
+            ValueError: A number is not finite, an index that no robot has, or an array of another
+                shape. Nothing has changed.
+            TypeError: An array of another type. Nothing has changed.
+            OverflowError: A negative index.
+        """
+
     def take(
         self,
         time: float,

@@ -296,6 +296,20 @@ def test_the_forecast_is_the_state_after_the_delay() -> None:
     assert forecasting(0.0) is None
 
 
+def test_robots_that_are_sent_equal_commands_are_forecast_to_go_on() -> None:
+    sensing = Sensing(command_delay=0.1, command_timeout=0.15, forecast=1)
+    config = SimConfig("ssl_b", 1, 0).with_sensing(sensing)
+    stepper = UntouchedNetwork(connected(config, ServerLink(referee="off"), "ssl-simulation"))
+    out, known = np.empty((2, 1, config.row_size), np.float32)
+    stepper.read(out)
+    commands = np.zeros((1, 1, len(config.command_columns)), np.float32)
+    commands[..., 0] = 1.0
+    for _ in range(40):
+        stepper.step(commands, out)
+    stepper.sense(known, None, "blue")
+    assert Frame(known, 1, 0).robots.velocity[0, 0, 0] == pytest.approx(1.0, abs=0.02)
+
+
 def test_a_policy_is_evaluated_there() -> None:
     link = ServerLink(referee="off")
     made: list[Connection] = []

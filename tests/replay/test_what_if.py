@@ -89,8 +89,9 @@ def test_a_branch_keeps_the_senses() -> None:
     recorded = record_replay(
         "VSSSelfPlay-v0", TEAMS, 3, seconds=2.0, snapshot_interval=1.0, sensing="vsss"
     )
-    matches = recorded.branch(50, {"blue": "zero", "yellow": "chase"})
-    resumed = recorded.resume(40)
+    snapshot = sorted(recorded.snapshots)[1]
+    matches = recorded.branch(snapshot + 10, {"blue": "zero", "yellow": "chase"})
+    resumed = recorded.resume(snapshot)
     none = np.zeros((1, 0, resumed.action_size), np.float32)
     for _ in range(10):
         resumed.step(none)

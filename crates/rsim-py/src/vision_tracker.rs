@@ -15,8 +15,9 @@ const ROBOT_COLUMNS: usize = 5;
 #[pyclass(module = "rsoccer._core")]
 pub(crate) struct VisionTracker(rsim_core::VisionTracker);
 
-/// Numbers of detected bodies.
+/// Numbers of detected bodies, and commands.
 type Detected<'py> = PyReadonlyArray<'py, f32, Ix2>;
+type Commands<'py> = PyReadonlyArray<'py, f32, Ix2>;
 
 #[pymethods]
 impl VisionTracker {
@@ -54,9 +55,7 @@ impl VisionTracker {
         robots: &Bound<'_, PyAny>,
         cut: Option<Vec<usize>>,
     ) -> PyResult<bool> {
-        if !time.is_finite() {
-            return Err(PyValueError::new_err(format!("time must be finite, got {time}")));
-        }
+        finite_time(time)?;
         let balls = numbers("balls", balls, 2)?;
         let balls: Vec<[f32; 2]> = balls.chunks_exact(2).map(|ball| [ball[0], ball[1]]).collect();
         let seen = numbers("robots", robots, ROBOT_COLUMNS)?;
@@ -64,6 +63,21 @@ impl VisionTracker {
         let robots = robots.collect::<PyResult<Vec<SeenRobot>>>()?;
         let cut = cut.map(|cut| self.bits("cut", &cut)).transpose()?;
         Ok(self.0.take(time, &balls, &robots, cut))
+    }
+
+    fn send(
+        &mut self,
+        time: f64,
+        commands: &Bound<'_, PyAny>,
+        robots: Vec<usize>,
+    ) -> PyResult<bool> {
+        finite_time(time)?;
+        let (count, columns) = (self.0.config().n_robots(), self.0.config().command_columns());
+        let commands: Commands = readable("commands", commands, &[count, columns])?;
+        let commands = values(&commands);
+        finite("commands", &commands)?;
+        let robots = self.bits("robots", &robots)?;
+        Ok(self.0.send(time, &commands, robots))
     }
 
     fn read(&self, out: &Bound<'_, PyAny>) -> PyResult<()> {
@@ -109,6 +123,14 @@ impl VisionTracker {
         }
         Ok(SeenRobot { robot, position: [*x, *y], heading: [*cos, *sin] })
     }
+}
+
+/// Refuses a time that is not finite.
+fn finite_time(time: f64) -> PyResult<()> {
+    if time.is_finite() {
+        return Ok(());
+    }
+    Err(PyValueError::new_err(format!("time must be finite, got {time}")))
 }
 
 /// Whether a number is an index.

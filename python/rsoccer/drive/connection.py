@@ -43,7 +43,7 @@ class Connection:
             bodies that are ignored, by the reason.
         contact: returns robots whose break beam is known, and those whose break beam is cut.
         on_event: called with words for what happens to vision, sides and referee.
-        on_sent: called with time and commands (robots, command) when robots get others than before.
+        on_sent: called with time and commands (robots, command) that are sent.
         frame: frame of one world that limits near the ball go by; the owner keeps it current.
     """
 
@@ -86,7 +86,6 @@ class Connection:
         self.frame = Frame.empty(1, config.n_blue, config.n_yellow)
         shape = (config.n_robots, len(config.command_columns))
         self._stopped: Floats = np.zeros(shape, np.float32)
-        self._sent: Floats | None = None
         self._is_closed = False
         self._sent_at = clock()
         self._now = 0.0
@@ -298,7 +297,6 @@ class Connection:
         self._sent_at = self._clock()
         if self._guard is not None:
             self._guard.sign()
-        if self._sent is None or not np.array_equal(allowed, self._sent):
-            for listener in self.on_sent:
-                listener(self.now, allowed)
-        self._sent = allowed
+        # Equal ones too: robots that hear nothing for a time stop.
+        for listener in self.on_sent:
+            listener(self.now, allowed)

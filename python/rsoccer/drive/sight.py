@@ -104,6 +104,16 @@ class Sight(ABC):
             position: the place in the package, m.
         """
 
+    @abstractmethod
+    def note(self, time: float, commands: Floats, driven: Mask) -> None:
+        """Take note of commands, which tell where robots are between frames.
+
+        Args:
+            time: time at which they were sent, by the clock of the frames, s.
+            commands: (robots, command) commands.
+            driven: (robots,) robots to which they were sent.
+        """
+
     @property
     def in_sight(self) -> Mask:
         """(robots,) robots that were seen, and believed, not long before the newest frame."""
@@ -213,6 +223,10 @@ class DetectionSight(Sight):
     def read(self, out: Floats) -> None:
         """Write the newest state; see `Sight.read`."""
         self._tracker.read(out)
+
+    def note(self, time: float, commands: Floats, driven: Mask) -> None:
+        """Take note of commands; see `Sight.note`."""
+        self._tracker.send(time, commands, np.flatnonzero(driven).tolist())
 
     def turn(self, layout: WireLayout) -> None:
         """Go on with other sides; see `Sight.turn`."""

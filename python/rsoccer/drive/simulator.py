@@ -94,6 +94,7 @@ class NetworkStepper(Stepper, Reader, SensingStepper, Closer):
     def _note(self, time: float, commands: Floats) -> None:
         for forecaster in self._forecasters.values():
             forecaster.send(commands[None], np.array([time]))
+        self.connection.sight.note(time, commands, self.connection.driven)
 
     def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> Doubles | None:
         """Let the robots execute commands for a control step; see `Stepper.step`.

@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from rsoccer._core import ROBOT_COLUMNS
-from rsoccer.arrays import Floats
+from rsoccer.arrays import Floats, Mask
 from rsoccer.drive.peers import Identity
 from rsoccer.drive.sight import FAR_BALLS, FAR_ROBOTS, DetectionSight, Sight
 from rsoccer.frame import Frame
@@ -39,6 +39,9 @@ class StateSight(Sight):
         """
         super().__init__(layout)
         self._frame = self._nothing()
+
+    def note(self, time: float, commands: Floats, driven: Mask) -> None:
+        """Ignore commands: messages have velocities; see `Sight.note`."""
 
     def _nothing(self) -> Frame:
         return Tracked.begin(self.layout, None, 0.0).frame

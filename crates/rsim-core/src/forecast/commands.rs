@@ -23,6 +23,14 @@ pub(crate) struct CommandLog {
     spare: Vec<Vec<f32>>,
 }
 
+/// The commands of a log that robots obey, of all robots; `None` if they stand still.
+pub(crate) type Acting<'a> = Option<&'a [f32]>;
+
+/// Whether these are the same ones of a log.
+pub(crate) fn is_same(one: Acting<'_>, other: Acting<'_>) -> bool {
+    one.map(<[f32]>::as_ptr) == other.map(<[f32]>::as_ptr)
+}
+
 impl CommandLog {
     /// Adds the commands that act from time `acts`, s, which is not before that of the last ones.
     pub(crate) fn add(&mut self, acts: f64, commands: &[f32]) {
@@ -39,7 +47,7 @@ impl CommandLog {
 
     /// The commands that robots obey at a time, s; `None` before the first, or if robots stop after `timeout`
     /// (s) without new ones.
-    pub(crate) fn acting(&self, time: f64, timeout: Option<f64>) -> Option<&[f32]> {
+    pub(crate) fn acting(&self, time: f64, timeout: Option<f64>) -> Acting<'_> {
         let sent = self.sent.iter().rev().find(|sent| sent.acts <= time)?;
         let is_heard = timeout.is_none_or(|timeout| time - sent.acts < timeout);
         is_heard.then_some(&sent.commands)

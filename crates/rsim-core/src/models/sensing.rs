@@ -110,6 +110,11 @@ numbers! {
 }
 
 impl Sensing {
+    /// Time without commands after which robots stop, s; `None` for never.
+    pub(crate) fn timeout(&self) -> Option<f64> {
+        (self.command_timeout > 0.0).then_some(f64::from(self.command_timeout))
+    }
+
     /// All numbers of senses and commands.
     pub fn numbers() -> Vec<Number> {
         listed(Self::NUMBERS).collect()

@@ -12,14 +12,19 @@ use crate::geometry::motion::Motion;
 use crate::math::Vector;
 use crate::models::sensing::Sensing;
 use crate::senses::detections::DetectedBall;
+use crate::senses::track::Parts;
 
-/// Speed at which a held ball wanders in the mouth, m/s.
-const DRIFT: f32 = 0.05;
+/// Acceleration of a held ball in the mouth that its filter counts with, m/s²: it slips along the dribbler when the
+/// robot turns.
+const ACCELERATION: f32 = 2.0;
 
 /// Distance of an estimate from the mouth up to which a cut beam tells of this ball, in standard deviations of
 /// a detection in the robot's frame, and at least, m.
 const DEVIATIONS: f32 = 4.0;
 const MIN_MARGIN: f32 = 0.01;
+
+/// Time between two frames that a velocity is computed with at least, s.
+const MIN_PERIOD: f32 = 0.001;
 
 /// Break beams that are known to be cut, and the robots.
 #[derive(Clone, Copy)]
@@ -34,8 +39,9 @@ pub(super) struct Beams<'a> {
 pub(super) struct Held {
     /// The robot, by its index.
     pub(super) robot: usize,
-    /// Place in the robot's frame, m.
+    /// Place in the robot's frame, m, and velocity there, m/s.
     place: Vector,
+    velocity: Vector,
 }
 
 /// Part of a mouth in which the center of a held ball can be, in the robot's frame, m.
@@ -72,14 +78,6 @@ impl Room {
     fn distance(&self, place: Vector) -> f32 {
         (place - place.clamp(self.from, self.to)).length()
     }
-
-    /// Part of a difference by which a detection corrects the place: that of the stationary Kalman filter for a
-    /// place that wanders, with a frame each `period`, s.
-    fn gain(&self, period: f32) -> f32 {
-        let ratio = DRIFT * period / self.deviation.max(1e-5);
-        let square = ratio * ratio;
-        ((square * square + 4.0 * square).sqrt() - square) / 2.0
-    }
 }
 
 /// A point of the field in a robot's frame, m.
@@ -100,7 +98,8 @@ impl Held {
             let room = Room::of(robot, beams, sensing)?;
             let place = in_frame(ball, &robots(robot));
             let is_there = room.distance(place) <= room.margin();
-            is_there.then(|| Self { robot, place: place.clamp(room.from, room.to) })
+            let place = place.clamp(room.from, room.to);
+            is_there.then_some(Self { robot, place, velocity: Vector::ZERO })
         })
     }
 
@@ -120,18 +119,26 @@ impl Held {
         let Some(room) = Room::of(self.robot, beams, sensing) else { return false };
         let places = balls.iter().map(|ball| in_frame(ball.position, robot));
         let nearest = places.min_by(|a, b| room.distance(*a).total_cmp(&room.distance(*b)));
-        let Some(place) = nearest else { return true };
+        let Some(place) = nearest else {
+            // Where it slips is unknown as long as no camera of this instant sees it.
+            self.velocity *= f32::from(u8::from(period <= 0.0));
+            return true;
+        };
         if room.distance(place) > room.margin() {
             return false;
         }
-        let corrected = self.place + (place - self.place) * room.gain(period);
-        self.place = corrected.clamp(room.from, room.to);
+        let parts = Parts::stationary(ACCELERATION * period * period / room.deviation.max(1e-5));
+        let predicted = self.place + self.velocity * period;
+        let difference = place - predicted;
+        self.place = (predicted + difference * parts.alpha).clamp(room.from, room.to);
+        self.velocity += difference * (parts.beta / period.max(MIN_PERIOD));
         true
     }
 
     /// Position and velocity of the ball, with those of the robot, m and m/s.
     pub(super) fn motion(&self, robot: &Motion) -> (Vector, Vector) {
         let arm = robot.heading * self.place.x + robot.heading.perp() * self.place.y;
-        (robot.position + arm, robot.velocity + arm.perp() * robot.angular_velocity)
+        let own = robot.heading * self.velocity.x + robot.heading.perp() * self.velocity.y;
+        (robot.position + arm, robot.velocity + arm.perp() * robot.angular_velocity + own)
     }
 }

@@ -7,6 +7,7 @@
 mod actuators;
 mod cameras;
 pub(crate) mod detections;
+mod driven;
 mod held;
 mod link;
 mod random;
@@ -28,11 +29,11 @@ use crate::models::config::SimConfig;
 use crate::models::sensing::Sensing;
 use crate::senses::actuators::Actuators;
 use crate::senses::detections::CameraFrame;
+use crate::senses::driven::Orders;
 use crate::senses::held::Beams;
 use crate::senses::link::Link;
 use crate::senses::random::{Draws, Purpose};
 use crate::senses::reports::Reports;
-use crate::senses::tracker::Tracker;
 use crate::senses::vision::Vision;
 use crate::state::State;
 
@@ -156,15 +157,23 @@ impl Senses {
         }
     }
 
-    /// Ends a control step: robots report, and what has arrived is taken in.
-    pub(crate) fn end_step(&mut self, watched: Watched<'_>) {
+    /// Ends a control step: robots report, and what has arrived is taken in. `models` are the parameters that teams
+    /// take robots to have.
+    pub(crate) fn end_step(&mut self, watched: Watched<'_>, models: &BodyParameters) {
         let Watched { config, parameters, state } = watched;
         let now = self.now(config);
         self.reports.send(now, (&self.sensing, self.key), state, parameters);
         self.reports.receive(now);
         let beams = Beams { cut: self.reports.cut, parameters };
+        let orders = Orders {
+            sent: &self.sent,
+            timeout: self.expected(config).timeout(),
+            parameters: models,
+            tick: config.tick,
+            columns: config.command_columns().max(1),
+        };
         for vision in &mut self.visions {
-            vision.receive(now, &self.sensing, beams);
+            vision.receive(now, &self.sensing, beams, orders);
         }
     }
 
@@ -176,17 +185,29 @@ impl Senses {
 
     /// Writes the row of what the robots of a team know.
     pub(crate) fn write_row(&self, knowledge: Knowledge, state: &State, out: &mut [f32]) {
-        row::write(self.tracker(knowledge), self.reports.cut, &self.reports.motions, state, out);
+        row::write(
+            &self.vision(knowledge).tracker,
+            self.reports.cut,
+            &self.reports.motions,
+            state,
+            out,
+        );
     }
 
-    /// Writes the row of what a team knows with velocities by cameras, which are of the same time as positions.
+    /// Writes the row of what a team knows at the last frame, velocities too. It knows the commands of `robots`, one
+    /// bit each.
     pub(crate) fn write_row_by_cameras(
         &self,
         knowledge: Knowledge,
+        robots: u64,
         state: &State,
         out: &mut [f32],
     ) {
-        row::write(self.tracker(knowledge), self.reports.cut, &[], state, out);
+        let vision = self.vision(knowledge);
+        row::write(&vision.tracker, self.reports.cut, &[], state, out);
+        if let Some(driven) = &vision.driven {
+            row::write_driven(driven, robots & !state.absent, out);
+        }
     }
 
     /// Numbers of the senses.
@@ -207,13 +228,13 @@ impl Senses {
 
     /// Time of the last frame that has arrived at a team, s.
     pub(crate) fn seen_at(&self, knowledge: Knowledge) -> f64 {
-        self.tracker(knowledge).time()
+        self.vision(knowledge).tracker.time()
     }
 
-    /// The tracker of a team: the first one's for the knowledge of all.
-    fn tracker(&self, knowledge: Knowledge) -> &Tracker {
+    /// Cameras and tracker of a team: the first one's for the knowledge of all.
+    fn vision(&self, knowledge: Knowledge) -> &Vision {
         let index = usize::from(knowledge == Knowledge::Yellow).min(self.visions.len() - 1);
-        &self.visions[index].tracker
+        &self.visions[index]
     }
 
     /// Time since the senses began, s.

@@ -1,9 +1,10 @@
 //! Rows of what robots know, in the columns of state rows.
 
-use crate::blocks::robot;
+use crate::blocks::{robot, set_bits};
 use crate::columns::{ABSENT_COLUMN, BALL_COLUMNS, ROBOT_COLUMNS};
 use crate::geometry::motion::Motion;
 use crate::math::Vector;
+use crate::senses::driven::Driven;
 use crate::senses::reports::OwnMotion;
 use crate::senses::tracker::Tracker;
 use crate::state::State;
@@ -72,5 +73,29 @@ pub(super) fn write_known(
             0.0,
             0.0,
         ]);
+    }
+}
+
+/// Writes what is known of `robots`, one bit each, by those who know their commands, and of the ball if one of them
+/// holds it, into a row of what cameras tell.
+pub(super) fn write_driven(driven: &Driven, robots: u64, out: &mut [f32]) {
+    let (ball, rows) = out.split_at_mut(BALL_COLUMNS.len());
+    for index in set_bits(robots) {
+        let Motion { position, heading, velocity, angular_velocity } = driven.motion(index);
+        let columns = &mut rows[index * ROBOT_COLUMNS.len()..][..7];
+        columns.copy_from_slice(&[
+            position.x,
+            position.y,
+            heading.x,
+            heading.y,
+            velocity.x,
+            velocity.y,
+            angular_velocity,
+        ]);
+    }
+    if let Some(held) = driven.held().filter(|held| robots >> held.robot & 1 == 1) {
+        let (position, velocity) = held.motion(&driven.motion(held.robot));
+        ball[..2].copy_from_slice(&[position.x, position.y]);
+        ball[3..5].copy_from_slice(&[velocity.x, velocity.y]);
     }
 }

@@ -26,6 +26,25 @@ struct Gain {
     gate: f32,
 }
 
+/// Parts of a difference by which a detection corrects a position, and by the time since the last one a velocity.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Parts {
+    pub(super) alpha: f32,
+    pub(super) beta: f32,
+}
+
+impl Parts {
+    /// Those of the stationary filter for a tracking index: the distance by an acceleration from one detection to the
+    /// next, in the noise's.
+    pub(super) fn stationary(index: f32) -> Self {
+        let root = (index * index + 8.0 * index).sqrt();
+        Self {
+            alpha: -(index * index + 8.0 * index - (index + 4.0) * root) / 8.0,
+            beta: (index * index + 4.0 * index - index * root) / 4.0,
+        }
+    }
+}
+
 /// Constants of a filter: gains by the number of detections since a push.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Filter {
@@ -38,10 +57,7 @@ impl Filter {
     /// The filter for detections with a `deviation` (m or rad), one each `period` (s), of a body that changes
     /// its velocity by `acceleration` (m/s² or rad/s²) without a push.
     pub(super) fn new(deviation: f32, period: f32, acceleration: f32) -> Self {
-        let index = acceleration * period * period / deviation;
-        let root = (index * index + 8.0 * index).sqrt();
-        let alpha = -(index * index + 8.0 * index - (index + 4.0) * root) / 8.0;
-        let beta = (index * index + 4.0 * index - index * root) / 4.0;
+        let Parts { alpha, beta } = Parts::stationary(acceleration * period * period / deviation);
         let variance = deviation * deviation;
         let mut gains = [Gain::default(); COUNTS];
         let mut count = 1.0_f32;

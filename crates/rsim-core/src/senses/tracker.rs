@@ -28,7 +28,7 @@ const MIN_REACH: f32 = 0.1;
 const BELIEVED: u8 = 8;
 
 /// Time without a detection after which a body is taken to stand still, s.
-const LOST: f32 = 0.3;
+pub(super) const LOST: f32 = 0.3;
 
 /// Estimate of the ball.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -65,22 +65,23 @@ pub(super) struct Tracker {
 
 /// Filters of the ball, of robots and of headings.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-struct Filters {
+pub(super) struct Filters {
     ball: Filter,
     robot: Filter,
     heading: Filter,
 }
 
 impl Filters {
-    /// The filters for the noise of some senses, with a frame each `period`, s.
-    fn of(sensing: &Sensing, period: f32) -> Self {
+    /// The filters for the noise of some senses, with a frame each `period` (s), and for robots that accelerate as
+    /// given (m/s² and rad/s²) where nobody expects it.
+    pub(super) fn of(sensing: &Sensing, period: f32, robot: f32, angular: f32) -> Self {
         let position =
             |noise: f32, acceleration| Filter::new(noise.max(MIN_DEVIATION), period, acceleration);
         let heading = sensing.heading_noise.max(MIN_HEADING_DEVIATION);
         Self {
             ball: position(sensing.ball_position_noise, BALL_ACCELERATION),
-            robot: position(sensing.robot_position_noise, ROBOT_ACCELERATION),
-            heading: Filter::new(heading, period, ANGULAR_ACCELERATION),
+            robot: position(sensing.robot_position_noise, robot),
+            heading: Filter::new(heading, period, angular),
         }
     }
 }
@@ -90,12 +91,10 @@ impl Tracker {
     /// any.
     pub(super) fn new(robots: usize, sensing: &Sensing, period: f32) -> Self {
         let track = PositionTrack::new(Vector::ZERO, Vector::ZERO);
-        let heading = HeadingTrack::new(Vector::X, 0.0);
         let ball =
             Ball { track, height: [0.0; 2], spin: Vec3::ZERO, unseen: 0.0, refused: 0, held: None };
-        let robot = Robot { track, heading, unseen: 0.0 };
-        let filters = Filters::of(sensing, period);
-        Self { ball, robots: vec![robot; robots], time: 0.0, filters }
+        let filters = Filters::of(sensing, period, ROBOT_ACCELERATION, ANGULAR_ACCELERATION);
+        Self { ball, robots: vec![Robot::new(); robots], time: 0.0, filters }
     }
 
     /// Begins anew from a first frame, whose bodies have been watched before.
@@ -107,6 +106,11 @@ impl Tracker {
         for seen in &frame.robots {
             self.robots[seen.robot].begin(&seen.motion);
         }
+    }
+
+    /// The ball, if a robot holds it.
+    pub(super) fn held(&self) -> Option<Held> {
+        self.ball.held
     }
 
     /// Time of the last frame, s.
@@ -133,7 +137,7 @@ impl Tracker {
             return self.copy(frame);
         }
         for robot in &mut self.robots {
-            robot.predict(elapsed);
+            robot.coast(elapsed);
         }
         for seen in &frame.robots {
             self.robots[seen.robot].update(&seen.motion, &self.filters);
@@ -239,8 +243,14 @@ impl Ball {
 }
 
 impl Robot {
+    /// A robot that was never seen.
+    pub(super) fn new() -> Self {
+        let track = PositionTrack::new(Vector::ZERO, Vector::ZERO);
+        Self { track, heading: HeadingTrack::new(Vector::X, 0.0), unseen: 0.0 }
+    }
+
     /// The estimated motion.
-    fn motion(&self) -> Motion {
+    pub(super) fn motion(&self) -> Motion {
         Motion {
             position: self.track.position,
             heading: self.heading.heading,
@@ -249,13 +259,14 @@ impl Robot {
         }
     }
 
-    fn begin(&mut self, seen: &Motion) {
+    pub(super) fn begin(&mut self, seen: &Motion) {
         self.track = PositionTrack::new(seen.position, seen.velocity);
         self.heading = HeadingTrack::new(seen.heading, seen.angular_velocity);
         self.unseen = 0.0;
     }
 
-    fn predict(&mut self, elapsed: f32) {
+    /// Goes on by `elapsed`, s, with a constant velocity.
+    fn coast(&mut self, elapsed: f32) {
         self.unseen += elapsed;
         if self.unseen > LOST {
             self.track.velocity = Vector::ZERO;
@@ -265,7 +276,18 @@ impl Robot {
         self.heading.predict(elapsed);
     }
 
-    fn update(&mut self, seen: &Motion, filters: &Filters) {
+    /// Goes on by `elapsed`, s, to a predicted motion.
+    pub(super) fn go_on(&mut self, elapsed: f32, predicted: &Motion) {
+        self.unseen += elapsed;
+        if self.unseen > LOST {
+            return self.coast(0.0);
+        }
+        (self.track.position, self.track.velocity) = (predicted.position, predicted.velocity);
+        (self.heading.heading, self.heading.angular_velocity) =
+            (predicted.heading, predicted.angular_velocity);
+    }
+
+    pub(super) fn update(&mut self, seen: &Motion, filters: &Filters) {
         if self.unseen <= 0.0 {
             return self.track.average(seen.position, &filters.robot);
         }

@@ -7,6 +7,7 @@ use crate::models::sensing::Sensing;
 use crate::senses::Watched;
 use crate::senses::cameras::Cameras;
 use crate::senses::detections::{CameraFrame, Detections};
+use crate::senses::driven::{Driven, Orders, Tracked};
 use crate::senses::held::Beams;
 use crate::senses::random::Draws;
 use crate::senses::tracker::Tracker;
@@ -20,13 +21,18 @@ pub(super) struct Vision {
     /// Frames that arrived in the last control step. The match does not depend on them.
     arrived: Vec<Detections>,
     pub(super) tracker: Tracker,
+    /// Estimates of robots by those who know their commands; `None` where nobody forecasts.
+    pub(super) driven: Option<Driven>,
 }
 
 impl Vision {
     pub(super) fn new(config: &SimConfig, sensing: &Sensing, key: u64, draws: &mut Draws) -> Self {
         let cameras = Cameras::new(config, sensing, draws);
-        let tracker = Tracker::new(config.n_robots(), sensing, cameras.period());
-        Self { key, cameras, arrived: Vec::new(), tracker }
+        let (robots, period) = (config.n_robots(), cameras.period());
+        let tracker = Tracker::new(robots, sensing, period);
+        let has_driven = sensing.forecast >= 0.5 && sensing.tracker >= 0.5;
+        let driven = has_driven.then(|| Driven::new(robots, sensing, period));
+        Self { key, cameras, arrived: Vec::new(), tracker, driven }
     }
 
     /// Looks at bodies that were placed.
@@ -40,6 +46,9 @@ impl Vision {
         self.cameras.forget();
         let frame = self.cameras.look(now, sensing, draws, watched.state, watched.parameters);
         self.tracker.begin(&frame);
+        if let Some(driven) = &mut self.driven {
+            driven.begin(&frame);
+        }
     }
 
     /// Exposes the frames that are due.
@@ -47,13 +56,25 @@ impl Vision {
         self.cameras.expose(now, (sensing, self.key), watched.state, watched.parameters);
     }
 
-    /// Takes in the frames that have arrived, with the break beams that are known to be cut.
-    pub(super) fn receive(&mut self, now: f64, sensing: &Sensing, beams: Beams<'_>) {
+    /// Takes in the frames that have arrived, with the break beams that are known to be cut and the commands that
+    /// were sent.
+    pub(super) fn receive(
+        &mut self,
+        now: f64,
+        sensing: &Sensing,
+        beams: Beams<'_>,
+        orders: Orders<'_>,
+    ) {
         for frame in self.arrived.drain(..) {
             self.cameras.recycle(frame);
         }
         while let Some(frame) = self.cameras.arrived(now) {
             self.tracker.take(sensing, &frame, beams.parameters.ball.radius, Some(beams));
+            if let Some(driven) = &mut self.driven {
+                let held = self.tracker.held();
+                let tracked = Tracked { frame: &frame, held, beams: Some(beams), sensing };
+                driven.take(tracked, orders);
+            }
             self.arrived.push(frame);
         }
     }

@@ -2,11 +2,14 @@
 
 use crate::body_parameters::BodyParameters;
 use crate::error::ConfigError;
+use crate::forecast::MAX_FORECAST;
+use crate::forecast::commands::CommandLog;
 use crate::geometry::motion::Motion;
 use crate::math::{Vec3, Vector};
 use crate::models::config::SimConfig;
 use crate::models::sensing::Sensing;
 use crate::senses::detections::{DetectedBall, DetectedRobot, Detections};
+use crate::senses::driven::{Driven, Orders, Tracked};
 use crate::senses::held::Beams;
 use crate::senses::row;
 use crate::senses::track::unit;
@@ -36,6 +39,10 @@ pub struct VisionTracker {
     parameters: BodyParameters,
     sensing: Sensing,
     tracker: Tracker,
+    driven: Driven,
+    /// Commands that were sent, and the robots to which, one bit each.
+    sent: CommandLog,
+    commanded: u64,
     /// Time of the last frame, s; `None` before the first.
     time: Option<f64>,
     has_ball: bool,
@@ -56,10 +63,21 @@ impl VisionTracker {
         let rate = if sensing.frame_rate > 0.0 { sensing.frame_rate } else { FRAME_RATE };
         let robots = config.n_robots();
         let tracker = Tracker::new(robots, &sensing, 1.0 / rate);
+        let driven = Driven::new(robots, &sensing, 1.0 / rate);
         let (parameters, robots_seen) =
             (BodyParameters::of(config), vec![f64::NEG_INFINITY; robots]);
-        let config = config.clone();
-        Ok(Self { config, parameters, sensing, tracker, time: None, has_ball: false, robots_seen })
+        Ok(Self {
+            config: config.clone(),
+            parameters,
+            sensing,
+            tracker,
+            driven,
+            sent: CommandLog::default(),
+            commanded: 0,
+            time: None,
+            has_ball: false,
+            robots_seen,
+        })
     }
 
     /// Configuration of the match.
@@ -80,6 +98,21 @@ impl VisionTracker {
     /// Whether a robot was seen not long before the last frame.
     pub fn has_robot(&self, robot: usize) -> bool {
         self.time.is_some_and(|time| time - self.robots_seen[robot] <= ABSENT)
+    }
+
+    /// Takes note of commands of all robots that were sent at a time (s, on the clock of the frames) to `robots`, one
+    /// bit each; they act `command_delay` of the senses later. From the first on, the drives of the models carry these
+    /// robots from one frame to the next. Returns false, and changes nothing, if they are older than the last ones.
+    pub fn send(&mut self, time: f64, commands: &[f32], robots: u64) -> bool {
+        let delay = f64::from(self.sensing.command_delay);
+        if self.sent.last().is_some_and(|last| time + delay < last) {
+            return false;
+        }
+        let seen = self.time.unwrap_or(f64::NEG_INFINITY);
+        self.sent.forget_before(seen.max(time + delay - MAX_FORECAST));
+        self.sent.add(time + delay, commands);
+        self.commanded = robots;
+        true
     }
 
     /// Takes in the detections of a camera: balls, of which one may be real, with the likeliest first, and
@@ -109,10 +142,22 @@ impl VisionTracker {
             let cut = cut.filter(|_| self.has_ball).map(|cut| cut & in_sight);
             let beams = cut.map(|cut| Beams { cut, parameters: &self.parameters });
             self.tracker.take(&self.sensing, &frame, self.config.ball.radius, beams);
+            let held = self.tracker.held();
+            let orders = Orders {
+                sent: &self.sent,
+                timeout: self.sensing.timeout(),
+                parameters: &self.parameters,
+                tick: self.config.tick,
+                columns: self.config.command_columns().max(1),
+            };
+            let tracked = Tracked { frame: &frame, held, beams, sensing: &self.sensing };
+            self.driven.take(tracked, orders);
         }
         // A body that has just come into sight rests until it is seen again.
         let first = balls.len().min(usize::from(!self.has_ball));
-        self.tracker.begin(&detections(time, &balls[..first], &new));
+        let frame = detections(time, &balls[..first], &new);
+        self.tracker.begin(&frame);
+        self.driven.begin(&frame);
         self.time = Some(time);
         self.has_ball |= first > 0;
         for seen in robots {
@@ -132,6 +177,10 @@ impl VisionTracker {
             (!self.has_robot(robot)).then_some((track.track.position, track.heading.heading))
         };
         row::write_known(&self.tracker, 0, &[], absent, out);
+        let in_sight = (0..self.robots_seen.len())
+            .filter(|robot| self.has_robot(*robot))
+            .fold(0_u64, |bits, robot| bits | 1 << robot);
+        row::write_driven(&self.driven, self.commanded & in_sight, out);
     }
 }
 

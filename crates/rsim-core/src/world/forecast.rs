@@ -2,10 +2,9 @@
 
 use crate::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
 use crate::forecast::coasting::Coasting;
-use crate::forecast::commands::CommandLog;
+use crate::forecast::commands::{Acting, CommandLog, is_same};
 use crate::forecast::{Knowledge, MAX_FORECAST};
 use crate::math::Vector;
-use crate::models::sensing::Sensing;
 use crate::state::State;
 use crate::state::crossing::Crossing;
 use crate::tick::Tick;
@@ -30,11 +29,6 @@ pub(super) struct Known<'a> {
     pub(super) timeout: Option<f64>,
 }
 
-/// Time without commands after which robots stop, s; `None` for never.
-pub(super) fn timeout(sensing: &Sensing) -> Option<f64> {
-    (sensing.command_timeout > 0.0).then_some(f64::from(sensing.command_timeout))
-}
-
 impl World {
     /// Whether robots know a forecast.
     pub(super) fn forecasts(&self) -> bool {
@@ -51,18 +45,19 @@ impl World {
         };
         let config = self.config();
         let expected = senses.expected(config);
-        let mut seen = vec![0.0; out.len()];
-        senses.write_row_by_cameras(knowledge, &self.state, &mut seen);
         let all = senses.sensing().forecast_others >= 0.5;
         let acting = if all { Knowledge::All } else { knowledge };
+        let robots = acting.robots(config);
+        let mut seen = vec![0.0; out.len()];
+        senses.write_row_by_cameras(knowledge, robots, &self.state, &mut seen);
         let until = senses.now(config) + f64::from(expected.command_delay);
         let known = Known {
             row: &seen,
             seen: senses.seen_at(knowledge).max(until - MAX_FORECAST),
             until,
             commands: senses.sent(),
-            robots: acting.robots(config),
-            timeout: timeout(expected),
+            robots,
+            timeout: expected.timeout(),
         };
         if !self.shared.run(&known, out) {
             senses.write_row(knowledge, &self.state, out);
@@ -154,7 +149,7 @@ impl Run<'_> {
         // Touches, collisions and crossings are those of the last control step.
         let steps = u32::try_from(config.ticks_per_step()).unwrap_or(u32::MAX);
         let tick = f64::from(config.tick);
-        let mut last: Option<Option<&[f32]>> = None;
+        let mut last: Option<Acting<'_>> = None;
         for left in (1..=*ticks).rev() {
             if left == steps {
                 state.crossing = Crossing::default();
@@ -186,9 +181,4 @@ impl Run<'_> {
     fn unknown(&self, state: &State) -> u64 {
         Knowledge::All.robots(&self.shared.setup.config) & !self.known.robots & !state.absent
     }
-}
-
-/// Whether two commands are the same ones of a log.
-fn is_same(one: Option<&[f32]>, other: Option<&[f32]>) -> bool {
-    one.map(<[f32]>::as_ptr) == other.map(<[f32]>::as_ptr)
 }

@@ -6,9 +6,10 @@ use crate::error::{ConfigError, ForecastError, SnapshotError};
 use crate::forecast::commands::CommandLog;
 use crate::forecast::{Knowledge, MAX_FORECAST};
 use crate::models::config::SimConfig;
+use crate::models::sensing::Sensing;
 use crate::threads::Threads;
 use crate::world::batch::FORECAST_ALONE;
-use crate::world::forecast::{Known, timeout};
+use crate::world::forecast::Known;
 use crate::world::snapshot::{self, Header};
 use crate::world::{Shared, World};
 
@@ -122,7 +123,7 @@ impl Forecaster {
             self.shared.placement.parse(row).map_err(|error| error.in_world(world))?;
         }
         let robots = self.knowledge.robots(self.config());
-        let timeout = self.config().sensing.as_ref().and_then(timeout);
+        let timeout = self.config().sensing.as_ref().and_then(Sensing::timeout);
         self.threads.write_rows(out, size, FORECAST_ALONE, |world, out| {
             let known = Known {
                 row: &rows[world * size..][..size],

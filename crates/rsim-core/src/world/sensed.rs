@@ -71,6 +71,6 @@ pub(super) fn advance_sensed(
         Tick { setup, parameters, commands: read }.advance(state, engine)?;
         senses.watch(Watched { config, parameters, state });
     }
-    senses.end_step(Watched { config, parameters, state });
+    senses.end_step(Watched { config, parameters, state }, &setup.parameters);
     Ok(())
 }

@@ -8,7 +8,7 @@ use crate::error::SnapshotError;
 use crate::models::config::SimConfig;
 
 /// Beginning of all snapshots. The last character counts the layouts of states that had the same physics.
-const MAGIC: [u8; 8] = *b"rsimsna5";
+const MAGIC: [u8; 8] = *b"rsimsna6";
 const HEADER_SIZE: usize = 28;
 
 /// Identity of the simulator of a snapshot.

@@ -49,7 +49,7 @@ fn a_held_ball_has_the_velocity_of_its_mouth() {
         moments(late.map(|(ball, robot)| ball[1] - robot[1])).1
     };
     let (held, loose) = (noise(sensing.clone()), noise(Sensing { beam_misses: 1.0, ..sensing }));
-    assert!(held < 0.3 * loose, "{held} and {loose} m/s");
+    assert!(held < 0.5 * loose, "{held} and {loose} m/s");
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod actuation;
 mod cameras;
+mod driven;
 mod forecast;
 mod held;
 mod state;

@@ -1,0 +1,171 @@
+//! Estimates of the robots whose commands a team knows.
+//!
+//! Between two frames the drives of the models follow these commands, where the tracker takes velocities to be
+//! constant. What is left to a filter is the error of a model, so it averages the noise of cameras over a longer
+//! time (a Kalman filter with a control input: Bar-Shalom, Li and Kirubarajan, Estimation with Applications to
+//! Tracking and Navigation, 2001, section 5.2).
+
+use serde::{Deserialize, Serialize};
+
+use crate::blocks::{Lanes, blocks_of, place_of, robot};
+use crate::body_parameters::BodyParameters;
+use crate::drive::{BlockCommands, DriveState};
+use crate::forecast::commands::{Acting, CommandLog, is_same};
+use crate::geometry::motion::Motion;
+use crate::geometry::motion_block::MotionBlock;
+use crate::models::sensing::Sensing;
+use crate::senses::detections::Detections;
+use crate::senses::held::{Beams, Held};
+use crate::senses::tracker::{Filters, LOST, Robot};
+
+/// Accelerations that the filters count with, m/s² and rad/s²: errors of models, and pushes below those that
+/// show in a single frame.
+const ACCELERATION: f32 = 1.5;
+const ANGULAR_ACCELERATION: f32 = 10.0;
+
+/// Part of a tick that counts as none.
+const ROUNDING: f32 = 0.01;
+
+/// The commands that a team knows, and the robots that follow them.
+#[derive(Clone, Copy)]
+pub(super) struct Orders<'a> {
+    pub(super) sent: &'a CommandLog,
+    /// Time without commands after which robots stop, s; `None` for never.
+    pub(super) timeout: Option<f64>,
+    pub(super) parameters: &'a BodyParameters,
+    /// Length of a tick, s.
+    pub(super) tick: f32,
+    /// Numbers of a robot's command.
+    pub(super) columns: usize,
+}
+
+/// A frame, and the rest that a tracker knows of it.
+#[derive(Clone, Copy)]
+pub(super) struct Tracked<'a> {
+    pub(super) frame: &'a Detections,
+    /// The ball, if the tracker takes a robot to hold it.
+    pub(super) held: Option<Held>,
+    /// Break beams; `None` where robots report nothing.
+    pub(super) beams: Option<Beams<'a>>,
+    pub(super) sensing: &'a Sensing,
+}
+
+/// Estimates of all robots at the instant of the last frame; each is that of a team that knows its commands.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct Driven {
+    robots: Vec<Robot>,
+    /// State of the wheels, by block.
+    wheels: Vec<DriveState>,
+    /// The ball, if a robot holds it.
+    held: Option<Held>,
+    filters: Filters,
+    /// Time of the last frame, s.
+    time: f64,
+}
+
+impl Driven {
+    /// Estimates of `robots` robots by frames of some senses, one each `period` (s), before the first.
+    pub(super) fn new(robots: usize, sensing: &Sensing, period: f32) -> Self {
+        let filters = Filters::of(sensing, period, ACCELERATION, ANGULAR_ACCELERATION);
+        let wheels = vec![DriveState::AT_REST; blocks_of(robots)];
+        Self { robots: vec![Robot::new(); robots], wheels, held: None, filters, time: 0.0 }
+    }
+
+    /// Begins anew with the bodies of a first frame, which have been watched before.
+    pub(super) fn begin(&mut self, frame: &Detections) {
+        self.time = frame.time;
+        self.held = self.held.filter(|_| frame.balls.is_empty());
+        for seen in &frame.robots {
+            self.robots[seen.robot].begin(&seen.motion);
+            let (block, lane) = place_of(robot(seen.robot));
+            self.wheels[block].clear(lane);
+        }
+    }
+
+    /// Takes in a frame, which is of no use if it is older than the last.
+    pub(super) fn take(&mut self, tracked: Tracked<'_>, orders: Orders<'_>) {
+        let Tracked { frame, held, beams, sensing } = tracked;
+        #[expect(clippy::cast_possible_truncation, reason = "time between two frames")]
+        let elapsed = (frame.time - self.time) as f32;
+        if elapsed < 0.0 {
+            return;
+        }
+        self.drive(elapsed, orders);
+        self.time = frame.time;
+        for seen in &frame.robots {
+            self.robots[seen.robot].update(&seen.motion, &self.filters);
+        }
+        let known = self.held;
+        self.held = beams.zip(held).and_then(|(beams, held)| {
+            let mut held = known.filter(|known| known.robot == held.robot).unwrap_or(held);
+            let robot = self.robots[held.robot].motion();
+            held.take(&frame.balls, &robot, beams, sensing, elapsed).then_some(held)
+        });
+    }
+
+    /// The ball, if a robot holds it.
+    pub(super) fn held(&self) -> Option<Held> {
+        self.held
+    }
+
+    /// The estimated motion of a robot.
+    pub(super) fn motion(&self, robot: usize) -> Motion {
+        self.robots[robot].motion()
+    }
+
+    /// Lets all robots drive for a time, s. Nobody knows where robots are that no frame has shown for long.
+    fn drive(&mut self, elapsed: f32, orders: Orders<'_>) {
+        let mut motions = vec![MotionBlock::AT_REST; self.wheels.len()];
+        for (index, known) in self.robots.iter().enumerate() {
+            let (block, lane) = place_of(robot(index));
+            motions[block].set(lane, &known.motion());
+        }
+        let mut drive = Drive { orders, commands: Vec::new(), acting: None };
+        let (time, mut passed) = (elapsed.min(LOST), 0.0);
+        while time - passed > ROUNDING * orders.tick {
+            let part = orders.tick.min(time - passed);
+            let now = self.time + f64::from(passed + part / 2.0);
+            drive.go_on(&mut motions, &mut self.wheels, now, part);
+            passed += part;
+        }
+        for (index, known) in self.robots.iter_mut().enumerate() {
+            let (block, lane) = place_of(robot(index));
+            known.go_on(elapsed, &motions[block].get(lane));
+        }
+    }
+}
+
+/// The drives of all robots, which follow known commands.
+struct Drive<'a> {
+    orders: Orders<'a>,
+    /// Commands of the wheels, by block.
+    commands: Vec<BlockCommands>,
+    /// The commands that these are; `None` before the first.
+    acting: Option<Acting<'a>>,
+}
+
+impl Drive<'_> {
+    /// Lets robots drive for a tick or a part of one (s) with its middle at `now`, s.
+    fn go_on(
+        &mut self,
+        motions: &mut [MotionBlock],
+        wheels: &mut [DriveState],
+        now: f64,
+        part: f32,
+    ) {
+        let Orders { sent, timeout, parameters, columns, .. } = self.orders;
+        let acting = sent.acting(now, timeout);
+        if self.acting.is_none_or(|last| !is_same(last, acting)) {
+            let read = |block| BlockCommands::read(acting.unwrap_or_default(), columns, block);
+            self.commands.clear();
+            self.commands.extend((0..motions.len()).map(read));
+            self.acting = Some(acting);
+        }
+        let time = Lanes::splat(part);
+        let models = parameters.wheels.iter().zip(&self.commands);
+        for ((motion, wheels), (model, commands)) in motions.iter_mut().zip(wheels).zip(models) {
+            let gain = wheels.accelerate(model, commands, motion);
+            motion.advance(gain.linear * time, gain.angular * time, part, 1);
+        }
+    }
+}
