@@ -1,6 +1,8 @@
 """Simulators and sensor models of one's own, as a user names them: tests.simulators:still."""
 
+import math
 from collections.abc import Mapping
+from typing import ClassVar
 
 import numpy as np
 
@@ -29,6 +31,27 @@ class Still:
 
 def still(config: SimConfig, worlds: int, threads: Threads) -> Still:
     return Still(config, worlds, threads)
+
+
+class Elsewhere:
+    """A simulator that cannot be saved, as one on a network.
+
+    Attributes:
+        left: steps until it answers no more, of all of them.
+    """
+
+    left: ClassVar[float] = math.inf
+
+    def __init__(self, config: SimConfig, worlds: int, threads: Threads) -> None:
+        self._own = Simulator(config, worlds, threads)
+        self.place, self.restart = self._own.place, self._own.restart
+        self.reposition_balls = self._own.reposition_balls
+
+    def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> None:
+        Elsewhere.left -= 1
+        if Elsewhere.left < 0:
+            raise ConnectionError("nobody answers")
+        self._own.step(commands, out, active)
 
 
 class Blind:

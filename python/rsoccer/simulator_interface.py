@@ -144,9 +144,18 @@ def require_snapshots(stepper: Stepper) -> SupportsSnapshots:
     Raises:
         TypeError: it has no `snapshot` or no `restore`.
     """
-    if not _has(stepper, "snapshot", "restore"):
+    if not has_snapshots(stepper):
         raise TypeError(f"{type(stepper).__name__} has no snapshot and restore")
     return cast(SupportsSnapshots, stepper)
+
+
+def has_snapshots(stepper: Stepper) -> bool:
+    """Return whether a stepper can be saved, unlike robots and other simulators.
+
+    Args:
+        stepper: the stepper.
+    """
+    return _has(stepper, "snapshot", "restore")
 
 
 def placer_of(stepper: Stepper) -> Placer | None:

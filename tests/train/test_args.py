@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from rsoccer.sources import NETWORK_SIMULATORS
 from rsoccer.train import (
     Args,
     NetworkSettings,
@@ -146,6 +147,14 @@ def test_parts_are_the_nested_settings() -> None:
 def test_resume_and_overwrite_exclude_each_other() -> None:
     with pytest.raises(ValueError, match="resume and overwrite"):
         Args(resume=True, overwrite=True)
+
+
+@pytest.mark.parametrize("name", NETWORK_SIMULATORS)
+def test_a_simulator_on_a_network_plays_one_match(name: str) -> None:
+    with pytest.raises(ValueError, match=rf"worlds: expected 1 with the simulator {name}, .* 512"):
+        Args(simulator=name, rollout=RolloutSettings(worlds=512))
+    assert Args(simulator=name, rollout=RolloutSettings(worlds=1)).is_on_network
+    assert not Args().is_on_network
 
 
 def test_an_adaptive_learning_rate_needs_updates_that_can_be_cut_short() -> None:

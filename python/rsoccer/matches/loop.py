@@ -49,7 +49,7 @@ from rsoccer.rng import Seeds, WorldRng, next_streams
 from rsoccer.rules.base import Restart, begin, judge, select
 from rsoccer.senses import Senses
 from rsoccer.sensing_text import with_number
-from rsoccer.simulator_interface import close
+from rsoccer.simulator_interface import close, has_snapshots
 from rsoccer.sources import (
     SensingSource,
     SimulatorSource,
@@ -389,6 +389,11 @@ class Matches:
         except BaseException as error:  # an interrupt too
             self._consistency.fail(f"step {self._step_calls}", error)
             raise
+
+    @property
+    def can_be_saved(self) -> bool:
+        """True if `state_dict` works: not with robots, and with few other simulators."""
+        return has_snapshots(self._simulator)
 
     def state_dict(self) -> dict[str, Array]:
         """Return copies of all state by name; `load_state_dict` continues exactly from it.

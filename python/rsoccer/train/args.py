@@ -16,7 +16,7 @@ from typing import Any, Final, Literal, Self, get_type_hints
 from rsoccer import plugins
 from rsoccer.option_values import encoded
 from rsoccer.registry import task_with_options
-from rsoccer.sources import make_sensing
+from rsoccer.sources import NETWORK_SIMULATORS, make_sensing
 from rsoccer.task import Task
 from rsoccer.train.network.settings import NetworkSettings
 from rsoccer.train.opponents.settings import OpponentSettings
@@ -66,7 +66,8 @@ class Args:
     task_options: Mapping[str, Any] = field(default_factory=dict)
     """options of the task, such as opponent=chase; models of robots, balls and fields, or files"""
     simulator: str | None = None
-    """module:function (config, worlds, threads) that makes the simulator, in place of the own"""
+    """grsim, firasim or ssl-simulation on this machine, with `rollout.worlds` 1, or module:function
+    (config, worlds, threads) that makes the simulator, in place of the own"""
     sensing: str | None = None
     """senses of the robots: a preset's name, also with numbers as in "rc2021, delay=0.1", a .json
     file, or module:name"""
@@ -108,12 +109,22 @@ class Args:
         convert_fields(self)
         plugins.import_modules(self.imports)
         if self.simulator is not None:
-            plugins.find("simulator", self.simulator)
+            plugins.find("simulator", NETWORK_SIMULATORS.get(self.simulator, self.simulator))
+        if self.is_on_network and self.rollout.worlds != 1:
+            raise ValueError(
+                f"rollout.worlds: expected 1 with the simulator {self.simulator}, which steps one "
+                f"match at a time, got {self.rollout.worlds}"
+            )
         make_sensing(self.sensing)
         for name in ("task_options", "randomization"):
             object.__setattr__(self, name, _as_json(getattr(self, name)))
         if self.resume and self.overwrite:
             raise ValueError("resume and overwrite exclude each other, got both")
+
+    @property
+    def is_on_network(self) -> bool:
+        """True if another simulator plays, one match at a time: training is all that is played."""
+        return self.simulator in NETWORK_SIMULATORS
 
     @classmethod
     def for_task(cls, task: str, **changes: Any) -> Self:  # noqa: ANN401  (any field)

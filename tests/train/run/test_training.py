@@ -1,6 +1,7 @@
 """The folder of a run: the match at its end, and refused settings and files."""
 
 import json
+import math
 from pathlib import Path
 
 import numpy as np
@@ -11,8 +12,9 @@ from rsoccer.registry import make_task
 from rsoccer.replay import Replay, record_replay
 from rsoccer.train import PpoSettings, train
 from rsoccer.train.run import checkpoint, training
-from tests.train.runs import digest
-from tests.train.short_task import NAME, tiny
+from tests.simulators import Elsewhere
+from tests.train.runs import digest, progress
+from tests.train.short_task import NAME, TINY, tiny
 
 
 def test_a_run_ends_with_a_match_of_its_policy(
@@ -64,6 +66,31 @@ def test_an_incomplete_checkpoint_is_refused(missing: str, finished: Path, tmp_p
     checkpoint.save(tmp_path / checkpoint.FILE_NAME, saved)
     with pytest.raises(ValueError, match="does not fit"):
         train(tiny(tmp_path, resume=True))
+
+
+def test_matches_that_cannot_be_saved_begin_again(tmp_path: Path) -> None:
+    settings = {"simulator": "tests.simulators:Elsewhere", "samples": 2 * 6 * 3 * 8}
+    train(tiny(tmp_path, **settings))
+    saved = checkpoint.load(tmp_path / checkpoint.FILE_NAME)
+    parts = {name.partition(".")[0] for name in saved.arrays}
+    assert "model" in parts
+    assert "worlds" not in parts
+    train(tiny(tmp_path, **{**settings, "samples": TINY["samples"], "resume": True}))
+    assert len(progress(tmp_path)) == 6
+
+
+def test_a_run_is_saved_when_nobody_answers(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Elsewhere, "left", 60)
+    settings = {"simulator": "tests.simulators:Elsewhere", "ladder_interval": 0}
+    with pytest.raises(ConnectionError, match="nobody answers"):
+        train(tiny(tmp_path, **settings))
+    saved = checkpoint.load(tmp_path / checkpoint.FILE_NAME)
+    assert saved.info["updates"] == len(progress(tmp_path)) == 2
+    monkeypatch.setattr(Elsewhere, "left", math.inf)
+    train(tiny(tmp_path, **settings, resume=True))
+    assert len(progress(tmp_path)) == 6
 
 
 @pytest.mark.parametrize("info", ["[]", "{}", '{"args": 3, "log_size": 0}', '{"args": {}}'])

@@ -85,6 +85,11 @@ class RolloutCollector:
             opponents: the mix of policies that controls the opponents, if one does.
         """
         self.matches, self._opponents = matches, opponents
+        self.begin_again()
+
+    def begin_again(self) -> None:
+        """Begin new episodes in all matches."""
+        matches = self.matches
         self.discounted_returns = np.zeros((matches.worlds, len(matches.agents)), np.float32)
         self.observations = matches.reset()
         self._update_states()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import time
 
 from rsoccer.train.rollout.episode_stats import Row
@@ -35,8 +36,11 @@ class Loop:
             callback: called after each update; None for none.
         """
         self.trainer, self._policy_files, self._callback = trainer, policy_files, callback
+        settings = trainer.args.run
+        if trainer.args.is_on_network:
+            settings = dataclasses.replace(settings, ladder_interval=0)
         self.ladder = Ladder(
-            trainer.args.run,
+            settings,
             trainer.task,
             trainer.args.threads,
             simulator=trainer.args.simulator,
@@ -74,6 +78,9 @@ class Loop:
                 stop.check()
         except Stopped:
             restore(trainer, saved)  # drop the update that the signal cut short
+            self.save(saved)
+            raise
+        except ConnectionError:  # robots on a network have stopped to answer
             self.save(saved)
             raise
         finally:

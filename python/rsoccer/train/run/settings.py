@@ -21,9 +21,9 @@ class RunSettings:
     progress: bool = True
     """show a progress bar"""
     match_page: bool = True
-    """write a match of the policy to `out` at the end"""
+    """write a match of the policy to `out` at the end, unless a simulator on a network plays"""
     ladder_interval: Natural = 100
-    """updates between measurements of strength; 0 for none"""
+    """updates between measurements of strength; 0, and simulators on a network, have none"""
     ladder_matches: Count = 100
     """matches of a measurement, always the same"""
 

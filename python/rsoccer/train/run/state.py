@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import torch
 
+from rsoccer.arrays import Array
 from rsoccer.train.prefixes import add_prefix, select_prefix
 from rsoccer.train.run.checkpoint import Checkpoint
 from rsoccer.train.run.trainer import Trainer
@@ -14,19 +15,22 @@ from rsoccer.train.run.trainer import Trainer
 def capture(trainer: Trainer, policy_files: Mapping[str, str], log_size: int) -> Checkpoint:
     """Return a copy of the run's state between two updates.
 
+    It has the matches too, unless other simulators or robots play them, which cannot be saved.
+
     Args:
         trainer: the run.
         policy_files: digests of the policies that play beside the learners, by name.
         log_size: bytes of the log's CSV file.
     """
     collector = trainer.collector
-    run = {
-        "discounted_returns": collector.discounted_returns.copy(),
-        "observations": collector.observations.copy(),
-        "generator": trainer.generator.get_state().numpy().copy(),
-    }
-    if collector.states is not None:
-        run["states"] = collector.states.copy()
+    run = {"generator": trainer.generator.get_state().numpy().copy()}
+    worlds: dict[str, Array] = {}
+    if collector.matches.can_be_saved:
+        worlds = collector.matches.state_dict()
+        run["discounted_returns"] = collector.discounted_returns.copy()
+        run["observations"] = collector.observations.copy()
+        if collector.states is not None:
+            run["states"] = collector.states.copy()
     central = {} if collector.central is None else collector.central.rms.state_dict()
     model = {name: part.numpy().copy() for name, part in trainer.model.state_dict().items()}
     arrays = {
@@ -36,7 +40,7 @@ def capture(trainer: Trainer, policy_files: Mapping[str, str], log_size: int) ->
         **add_prefix("obs_rms", collector.obs_rms.state_dict()),
         **add_prefix("state_rms", central),
         **add_prefix("return_rms", collector.return_rms.state_dict()),
-        **add_prefix("worlds", collector.matches.state_dict()),
+        **add_prefix("worlds", worlds),
         **add_prefix("pool", {} if trainer.pool is None else trainer.pool.state_dict()),
     }
     info = {
@@ -54,6 +58,8 @@ def capture(trainer: Trainer, policy_files: Mapping[str, str], log_size: int) ->
 
 def restore(trainer: Trainer, saved: Checkpoint) -> None:
     """Give a new run the captured state; its updates then equal the captured run's bit for bit.
+
+    Without saved matches new episodes begin.
 
     Args:
         trainer: a new run with the settings of the captured one.
@@ -79,13 +85,17 @@ def _restore(trainer: Trainer, saved: Checkpoint) -> None:
     trainer.ppo.optimizer.load_state_dict(select_prefix("adam", arrays))
     collector.obs_rms.load_state_dict(select_prefix("obs_rms", arrays))
     collector.return_rms.load_state_dict(select_prefix("return_rms", arrays))
-    collector.matches.load_state_dict(select_prefix("worlds", arrays))
-    run = select_prefix("run", arrays)
+    run, worlds = select_prefix("run", arrays), select_prefix("worlds", arrays)
     if collector.central is not None:
         collector.central.rms.load_state_dict(select_prefix("state_rms", arrays))
-        collector.states = run["states"].copy()
-    collector.discounted_returns = run["discounted_returns"].copy()
-    collector.observations = run["observations"].copy()
+    if worlds or collector.matches.can_be_saved:
+        collector.matches.load_state_dict(worlds)
+        collector.discounted_returns = run["discounted_returns"].copy()
+        collector.observations = run["observations"].copy()
+        if collector.central is not None:
+            collector.states = run["states"].copy()
+    else:
+        collector.begin_again()
     trainer.generator.set_state(torch.tensor(run["generator"]))
     trainer.samples, trainer.updates = info["samples"], info["updates"]
     trainer.elapsed = info["elapsed"]

@@ -44,7 +44,7 @@ def run_training(args: Args, callback: Callback | None = None) -> Path:
         policy_files = folder.policy_digests(args)
         with folder.opened(args, policy_files) as saved:
             _train(Loop(trainer, policy_files, callback), saved)
-            if args.run.match_page:
+            if args.run.match_page and not args.is_on_network:
                 _write_match(trainer)
     return args.out / POLICY_FILE
 
