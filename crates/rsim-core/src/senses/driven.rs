@@ -16,6 +16,7 @@ use crate::geometry::motion_block::MotionBlock;
 use crate::models::sensing::Sensing;
 use crate::senses::detections::Detections;
 use crate::senses::held::{Beams, Held};
+use crate::senses::resting::Resting;
 use crate::senses::tracker::{Filters, LOST, Robot};
 
 /// Accelerations that the filters count with, m/s² and rad/s²: errors of models, and pushes below those that
@@ -58,6 +59,8 @@ pub(super) struct Driven {
     wheels: Vec<DriveState>,
     /// The ball, if a robot holds it.
     held: Option<Held>,
+    /// Robots that stand, of those whose commands are unknown.
+    resting: Resting,
     filters: Filters,
     /// Time of the last frame, s.
     time: f64,
@@ -68,13 +71,16 @@ impl Driven {
     pub(super) fn new(robots: usize, sensing: &Sensing, period: f32) -> Self {
         let filters = Filters::of(sensing, period, ACCELERATION, ANGULAR_ACCELERATION);
         let wheels = vec![DriveState::AT_REST; blocks_of(robots)];
-        Self { robots: vec![Robot::new(); robots], wheels, held: None, filters, time: 0.0 }
+        let resting = Resting::new(robots);
+        let robots = vec![Robot::new(); robots];
+        Self { robots, wheels, held: None, resting, filters, time: 0.0 }
     }
 
     /// Begins anew with the bodies of a first frame, which have been watched before.
     pub(super) fn begin(&mut self, frame: &Detections) {
         self.time = frame.time;
         self.held = self.held.filter(|_| frame.balls.is_empty());
+        self.resting.begin(frame);
         for seen in &frame.robots {
             self.robots[seen.robot].begin(&seen.motion);
             let (block, lane) = place_of(robot(seen.robot));
@@ -95,6 +101,7 @@ impl Driven {
         for seen in &frame.robots {
             self.robots[seen.robot].update(&seen.motion, &self.filters);
         }
+        self.resting.take(frame, sensing);
         let known = self.held;
         self.held = beams.zip(held).and_then(|(beams, held)| {
             let mut held = known.filter(|known| known.robot == held.robot).unwrap_or(held);
@@ -106,6 +113,11 @@ impl Driven {
     /// The ball, if a robot holds it.
     pub(super) fn held(&self) -> Option<Held> {
         self.held
+    }
+
+    /// Robots that stand.
+    pub(super) fn resting(&self) -> &Resting {
+        &self.resting
     }
 
     /// The estimated motion of a robot.

@@ -12,6 +12,7 @@ mod held;
 mod link;
 mod random;
 mod reports;
+mod resting;
 mod row;
 mod track;
 mod tracker;
@@ -206,7 +207,7 @@ impl Senses {
         let vision = self.vision(knowledge);
         row::write(&vision.tracker, self.reports.cut, &[], state, out);
         if let Some(driven) = &vision.driven {
-            row::write_driven(driven, robots & !state.absent, out);
+            row::write_driven(driven, [robots & !state.absent, !robots & !state.absent], out);
         }
     }
 

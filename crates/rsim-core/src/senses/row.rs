@@ -76,12 +76,16 @@ pub(super) fn write_known(
     }
 }
 
-/// Writes what is known of `robots`, one bit each, by those who know their commands, and of the ball if one of them
-/// holds it, into a row of what cameras tell.
-pub(super) fn write_driven(driven: &Driven, robots: u64, out: &mut [f32]) {
+/// Writes what forecasts begin with into a row of what cameras tell: robots whose commands are known (the bits of
+/// `known`) and a ball that one of them holds as drives carry them, and those of the `others` that stand.
+pub(super) fn write_driven(driven: &Driven, [known, others]: [u64; 2], out: &mut [f32]) {
     let (ball, rows) = out.split_at_mut(BALL_COLUMNS.len());
-    for index in set_bits(robots) {
-        let Motion { position, heading, velocity, angular_velocity } = driven.motion(index);
+    let resting = driven.resting();
+    let stands = set_bits(others).filter_map(|index| Some((index, resting.robot(index)?)));
+    let stands = stands.map(|(index, place)| (index, place.at_rest()));
+    let moves = set_bits(known).map(|index| (index, driven.motion(index)));
+    for (index, motion) in moves.chain(stands) {
+        let Motion { position, heading, velocity, angular_velocity } = motion;
         let columns = &mut rows[index * ROBOT_COLUMNS.len()..][..7];
         columns.copy_from_slice(&[
             position.x,
@@ -93,7 +97,7 @@ pub(super) fn write_driven(driven: &Driven, robots: u64, out: &mut [f32]) {
             angular_velocity,
         ]);
     }
-    if let Some(held) = driven.held().filter(|held| robots >> held.robot & 1 == 1) {
+    if let Some(held) = driven.held().filter(|held| known >> held.robot & 1 == 1) {
         let (position, velocity) = held.motion(&driven.motion(held.robot));
         ball[..2].copy_from_slice(&[position.x, position.y]);
         ball[3..5].copy_from_slice(&[velocity.x, velocity.y]);

@@ -16,7 +16,7 @@ const COUNTS: usize = LONG as usize;
 
 /// Squared distance from the prediction, in standard deviations, beyond which a body was pushed: a
 /// detection is farther away once in 3,000.
-const GATE: f32 = 16.0;
+pub(super) const GATE: f32 = 16.0;
 
 /// Parts of a difference that correct a state, and the squared difference that tells of a push.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]

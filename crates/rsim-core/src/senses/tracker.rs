@@ -10,8 +10,8 @@ use crate::senses::held::{Beams, Held};
 use crate::senses::track::{Filter, HeadingTrack, PositionTrack, unit};
 
 /// Standard deviation of a detection that the filters count with at least, m and rad.
-const MIN_DEVIATION: f32 = 0.000_3;
-const MIN_HEADING_DEVIATION: f32 = 0.002;
+pub(super) const MIN_DEVIATION: f32 = 0.000_3;
+pub(super) const MIN_HEADING_DEVIATION: f32 = 0.002;
 
 /// Accelerations that the filters count with, m/s² and rad/s²: of a ball that slides (3 m/s²), and of robots
 /// that speed up.

@@ -21,7 +21,7 @@ pub(super) struct Vision {
     /// Frames that arrived in the last control step. The match does not depend on them.
     arrived: Vec<Detections>,
     pub(super) tracker: Tracker,
-    /// Estimates of robots by those who know their commands; `None` where nobody forecasts.
+    /// Estimates for forecasts; `None` where nobody forecasts.
     pub(super) driven: Option<Driven>,
 }
 

@@ -180,7 +180,10 @@ impl VisionTracker {
         let in_sight = (0..self.robots_seen.len())
             .filter(|robot| self.has_robot(*robot))
             .fold(0_u64, |bits, robot| bits | 1 << robot);
-        row::write_driven(&self.driven, self.commanded & in_sight, out);
+        if self.commanded != 0 {
+            let (known, others) = (self.commanded & in_sight, !self.commanded & in_sight);
+            row::write_driven(&self.driven, [known, others], out);
+        }
     }
 }
 

@@ -97,3 +97,39 @@ fn a_held_ball_moves_with_a_robot_whose_commands_are_known() {
         assert!(driven < 0.6 * sensed, "{name}: {driven} and {sensed}");
     }
 }
+
+/// Known speeds and distances from their places, by step, of robots of the other team that stand until step 30 and
+/// then drive.
+fn starting() -> Vec<[f64; 2]> {
+    let poses = [[-2.0, 0.0, 0.0], [1.0, 0.5, 0.0]];
+    let scene = Scene::at("starting", scenes::ssl(1, 1), &poses, Driver::STILL);
+    let (mut batch, mut rows) = begin(&scene, late(), WORLDS);
+    let size = scene.config.row_size();
+    let at = |name: &str| row_size(1) + robot_column(name);
+    let mut found = Vec::new();
+    for step in 0..45_u8 {
+        let speed = if step < 30 { 0.0 } else { 2.0 };
+        let commands: Vec<f32> =
+            [[0.0; 6], [speed, 0.0, 0.0, 0.0, 0.0, 0.0]].concat().repeat(WORLDS);
+        batch.step(&commands, &mut rows, None).expect("finite");
+        let mut known = vec![0.0; rows.len()];
+        batch.sense_as(Knowledge::Blue, &mut known, None);
+        let worlds = || known.chunks_exact(size).zip(rows.chunks_exact(size));
+        let (speed, _) = moments(worlds().map(|(known, _)| known[at("v_x")].abs()));
+        let (away, _) = moments(worlds().map(|(known, row)| (known[at("x")] - row[at("x")]).abs()));
+        found.push([speed, away]);
+    }
+    found
+}
+
+#[test]
+fn robots_that_stand_are_known_to_stand_and_soon_known_to_drive() {
+    let found = starting();
+    for [speed, away] in &found[20..30] {
+        assert!(*speed < 0.002 && *away < 0.0005, "{speed} m/s, {away} m");
+    }
+    // While they gain speed they are known to have that of a frame before.
+    assert!(found[44][0] > 1.0 && found[44][1] < 0.02, "{:?}", found[44]);
+    // 5 mm from their places, after some .06 s and the delay of the cameras, they are seen to move.
+    assert!(found[36][0] > 0.3, "{:?}", &found[30..]);
+}

@@ -1,0 +1,103 @@
+//! Robots that stand, for forecasts: one that moves by no more than the noise of the cameras is taken to be at rest.
+//!
+//! The velocity that a filter finds for such a robot is noise, and a forecast would carry the robot along it. Here a
+//! robot rests as long as its detections scatter around their mean as the noise does. The ball has no such estimate:
+//! it often rolls more slowly than could be told from noise, and passes became fewer.
+
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::motion::Motion;
+use crate::math::Vector;
+use crate::models::sensing::Sensing;
+use crate::senses::detections::Detections;
+use crate::senses::track::{GATE, unit};
+use crate::senses::tracker::{MIN_DEVIATION, MIN_HEADING_DEVIATION};
+
+/// Number of detections in a row around one place after which a robot rests: .18 s at 66 frames a second.
+const SETTLED: u8 = 12;
+
+/// Number of detections whose mean is the place.
+const LONG: u8 = 32;
+
+/// Place of a robot that may rest.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+pub(super) struct Place {
+    /// m.
+    position: Vector,
+    /// Cosine and sine.
+    heading: Vector,
+    /// Number of detections around it.
+    count: u8,
+}
+
+/// Standard deviations of a detection, m and rad.
+#[derive(Debug, Clone, Copy)]
+struct Noise {
+    position: f32,
+    heading: f32,
+}
+
+impl Place {
+    const UNSEEN: Self = Self { position: Vector::ZERO, heading: Vector::X, count: 0 };
+
+    fn take(&mut self, position: Vector, heading: Vector, noise: Noise) {
+        let count = f32::from(self.count.max(1));
+        let gate = GATE * (1.0 + 1.0 / count);
+        let away = (position - self.position).length_squared();
+        let turned = self.heading.perp_dot(heading);
+        let is_there = away <= gate * noise.position * noise.position
+            && turned * turned <= gate * noise.heading * noise.heading
+            && self.heading.dot(heading) > 0.0;
+        if self.count == 0 || !is_there {
+            *self = Self { position, heading, count: 1 };
+            return;
+        }
+        self.count = (self.count + 1).min(LONG);
+        let part = 1.0 / f32::from(self.count);
+        self.position += (position - self.position) * part;
+        self.heading = unit(self.heading + (heading - self.heading) * part);
+    }
+
+    /// A robot at rest there.
+    pub(super) fn at_rest(&self) -> Motion {
+        Motion::at_rest(self.position, self.heading)
+    }
+
+    fn is_settled(&self) -> bool {
+        self.count >= SETTLED
+    }
+}
+
+/// Places of all robots.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct Resting(Vec<Place>);
+
+impl Resting {
+    /// Robots of which none was seen.
+    pub(super) fn new(robots: usize) -> Self {
+        Self(vec![Place::UNSEEN; robots])
+    }
+
+    /// Forgets where the robots of a frame were, as they were moved by hand.
+    pub(super) fn begin(&mut self, frame: &Detections) {
+        for seen in &frame.robots {
+            self.0[seen.robot] = Place::UNSEEN;
+        }
+    }
+
+    /// Takes in a frame.
+    pub(super) fn take(&mut self, frame: &Detections, sensing: &Sensing) {
+        let noise = Noise {
+            position: sensing.robot_position_noise.max(MIN_DEVIATION),
+            heading: sensing.heading_noise.max(MIN_HEADING_DEVIATION),
+        };
+        for seen in &frame.robots {
+            self.0[seen.robot].take(seen.motion.position, unit(seen.motion.heading), noise);
+        }
+    }
+
+    /// Where a robot rests; `None` if it moves, or there is none.
+    pub(super) fn robot(&self, robot: usize) -> Option<Place> {
+        self.0.get(robot).copied().filter(Place::is_settled)
+    }
+}
