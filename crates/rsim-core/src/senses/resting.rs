@@ -2,7 +2,7 @@
 //!
 //! The velocity that a filter finds for such a robot is noise, and a forecast would carry the robot along it. Here a
 //! robot rests as long as its detections scatter around their mean as the noise does. The ball has no such estimate:
-//! it often rolls more slowly than could be told from noise, and passes became fewer.
+//! it often rolls more slowly than could be separated from noise, and passes became fewer.
 
 use serde::{Deserialize, Serialize};
 
@@ -96,7 +96,7 @@ impl Resting {
         }
     }
 
-    /// Where a robot rests; `None` if it moves, or there is none.
+    /// The place of a robot that rests; `None` if it moves, or there is none.
     pub(super) fn robot(&self, robot: usize) -> Option<Place> {
         self.0.get(robot).copied().filter(Place::is_settled)
     }
