@@ -184,8 +184,8 @@ _BEHIND_FORECAST: Final[dict[str, Any]] = {
     "network.initial_policy": "best",
     "network.action_std": 0.1,
     "network.final_action_std": 0.02,
-    # 95 ms in all. A forecast knows the middle of the delays, as that of a team which has identified
-    # its robots; with delays of 0 to 60 ms around an expected 0 half as many gates were crossed.
+    # 95 ms in all. A forecast knows the middle of the delays, as that of a team that has identified
+    # its robots: with an expected 0 for delays of 0 to 60 ms 5.2 instead of 6.9 gates were crossed.
     "sensing": "rc2021, forecast=1, command_delay=0.05",
     "randomization": {
         "sensing.command_delay": [0.0375, 0.0625],
