@@ -121,7 +121,9 @@ impl Held {
         let nearest = places.min_by(|a, b| room.distance(*a).total_cmp(&room.distance(*b)));
         let Some(place) = nearest else {
             // Where it slips is unknown as long as no camera of this instant sees it.
-            self.velocity *= f32::from(u8::from(period <= 0.0));
+            if period > 0.0 {
+                self.velocity = Vector::ZERO;
+            }
             return true;
         };
         if room.distance(place) > room.margin() {
