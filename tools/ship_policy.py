@@ -198,8 +198,8 @@ def options_of(policy: Shipped) -> dict[str, int]:
     Args:
         policy: the policy.
     """
-    count = policy.task_options.get("n_opponents", 0)
     default = getattr(rsoccer.make_task(policy.task_name), "n_opponents", 0)
+    count = policy.task_options.get("n_opponents", default)
     return {} if count == default else {"n_opponents": count}
 
 

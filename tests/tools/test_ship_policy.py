@@ -11,12 +11,12 @@ import pytest
 import rsoccer
 from rsoccer import cli
 from rsoccer.commands import train as train_command
-from rsoccer.policies import trained
+from rsoccer.policies import make_policy, trained
 from rsoccer.policies.network import Network
 from rsoccer.train import Args, NetworkSettings, train
 from tests.policies.networks import network_for
 from tests.train.one_update import one_update
-from tools.ship_policy import MAX_SIZE, command_of, ship, ship_behind_forecast
+from tools.ship_policy import MAX_SIZE, command_of, options_of, ship, ship_behind_forecast, shipped
 
 
 @pytest.fixture
@@ -113,3 +113,12 @@ def test_the_best_policy_becomes_the_robust_one_behind_a_forecast(folder: Path) 
     assert [score.sensing for score in scores] == ["", "rc2021, forecast=1"]
     with pytest.raises(ValueError, match=r"name: expected one of \['VSS-v0'\], got 'SSLMatch-v0'"):
         ship_behind_forecast("SSLMatch-v0")
+
+
+@pytest.mark.parametrize("name", shipped())
+def test_policies_are_measured_with_the_opponents_that_they_observe(name: str) -> None:
+    policy = trained.load_file(shipped()[name])
+    task = rsoccer.make_task(policy.task_name, **options_of(policy))
+    make_policy(policy, task)
+    with_opponents = {"SSLPassEnduranceMulti-v1:opponents": {"n_opponents": 1}}
+    assert options_of(policy) == with_opponents.get(name, {})
