@@ -11,6 +11,7 @@ import pytest
 
 from rsoccer import Matches, Sensing, SimConfig, plugins
 from rsoccer._core import Threads
+from rsoccer.arrays import Floats
 from rsoccer.drive import (
     Network,
     NetworkSimulator,
@@ -280,24 +281,8 @@ def test_a_network_is_copied_without_its_connection() -> None:
     network.close()
 
 
-def test_the_forecast_is_the_state_after_the_delay() -> None:
-    config = SimConfig("ssl_b", 1, 0).with_sensing(forecasting(0.1))
-    stepper = UntouchedNetwork(connected(config, ServerLink(referee="off"), "ssl-simulation"))
-    out, known = np.empty((2, 1, config.row_size), np.float32)
-    stepper.read(out)
-    commands = np.zeros((1, 1, len(config.command_columns)), np.float32)
-    commands[..., 0] = 1.0
-    for _ in range(40):
-        stepper.step(commands, out)
-    stepper.sense(known, None, "blue")
-    assert known[0, 17] - out[0, 17] == pytest.approx(0.1, abs=0.02)
-    stepper.sense(known, None, None)
-    np.testing.assert_array_equal(known, out)
-    assert forecasting(0.0) is None
-
-
-def test_robots_that_are_sent_equal_commands_are_forecast_to_go_on() -> None:
-    sensing = Sensing(command_delay=0.1, command_timeout=0.15, forecast=1)
+def driven_ahead(sensing: Sensing | None) -> tuple[UntouchedNetwork, Floats, Floats]:
+    """A robot on a network after a second of 1 m/s: its stepper, its state and what blue knows."""
     config = SimConfig("ssl_b", 1, 0).with_sensing(sensing)
     stepper = UntouchedNetwork(connected(config, ServerLink(referee="off"), "ssl-simulation"))
     out, known = np.empty((2, 1, config.row_size), np.float32)
@@ -307,6 +292,20 @@ def test_robots_that_are_sent_equal_commands_are_forecast_to_go_on() -> None:
     for _ in range(40):
         stepper.step(commands, out)
     stepper.sense(known, None, "blue")
+    return stepper, out, known
+
+
+def test_the_forecast_is_the_state_after_the_delay() -> None:
+    stepper, out, known = driven_ahead(forecasting(0.1))
+    assert known[0, 17] - out[0, 17] == pytest.approx(0.1, abs=0.02)
+    stepper.sense(known, None, None)
+    np.testing.assert_array_equal(known, out)
+    assert forecasting(0.0) is None
+
+
+def test_robots_that_are_sent_equal_commands_are_forecast_to_go_on() -> None:
+    sensing = Sensing(command_delay=0.1, command_timeout=0.15, forecast=1)
+    *_, known = driven_ahead(sensing)
     assert Frame(known, 1, 0).robots.velocity[0, 0, 0] == pytest.approx(1.0, abs=0.02)
 
 

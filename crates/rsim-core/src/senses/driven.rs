@@ -13,6 +13,7 @@ use crate::drive::{BlockCommands, DriveState};
 use crate::forecast::commands::{Acting, CommandLog, is_same};
 use crate::geometry::motion::Motion;
 use crate::geometry::motion_block::MotionBlock;
+use crate::models::config::SimConfig;
 use crate::models::sensing::Sensing;
 use crate::senses::detections::Detections;
 use crate::senses::held::{Beams, Held};
@@ -30,14 +31,27 @@ const ROUNDING: f32 = 0.01;
 /// The commands that a team knows, and the robots that follow them.
 #[derive(Clone, Copy)]
 pub(super) struct Orders<'a> {
-    pub(super) sent: &'a CommandLog,
+    sent: &'a CommandLog,
     /// Time without commands after which robots stop, s; `None` for never.
-    pub(super) timeout: Option<f64>,
-    pub(super) parameters: &'a BodyParameters,
+    timeout: Option<f64>,
+    parameters: &'a BodyParameters,
     /// Length of a tick, s.
-    pub(super) tick: f32,
+    tick: f32,
     /// Numbers of a robot's command.
-    pub(super) columns: usize,
+    columns: usize,
+}
+
+impl<'a> Orders<'a> {
+    /// Commands that were sent to robots with these parameters, by a link as in `sensing`.
+    pub(super) fn new(
+        sent: &'a CommandLog,
+        config: &SimConfig,
+        sensing: &Sensing,
+        parameters: &'a BodyParameters,
+    ) -> Self {
+        let columns = config.command_columns().max(1);
+        Self { sent, timeout: sensing.timeout(), parameters, tick: config.tick, columns }
+    }
 }
 
 /// A frame, and the rest that a tracker knows of it.

@@ -166,13 +166,7 @@ impl Senses {
         self.reports.send(now, (&self.sensing, self.key), state, parameters);
         self.reports.receive(now);
         let beams = Beams { cut: self.reports.cut, parameters };
-        let orders = Orders {
-            sent: &self.sent,
-            timeout: self.expected(config).timeout(),
-            parameters: models,
-            tick: config.tick,
-            columns: config.command_columns().max(1),
-        };
+        let orders = Orders::new(&self.sent, config, self.expected(config), models);
         for vision in &mut self.visions {
             vision.receive(now, &self.sensing, beams, orders);
         }

@@ -9,6 +9,9 @@ use crate::senses::reports::OwnMotion;
 use crate::senses::tracker::Tracker;
 use crate::state::State;
 
+/// Number of a robot's columns for its motion, which come first; the break beam follows.
+const MOTION_COLUMNS: usize = 7;
+
 /// Writes what is known. Nobody senses touches, collisions and lines crossed: these columns are as of a match
 /// that has just begun. Which robots are absent is known. `cut` has a bit for each robot whose beam is cut;
 /// `motions` are the velocities that robots report, empty for those by cameras.
@@ -51,29 +54,30 @@ pub(super) fn write_known(
             continue;
         }
         let robot = &tracker.robots[index];
-        let (position, heading) = (robot.track.position, robot.heading.heading);
-        let (mut velocity, mut turn) = (robot.track.velocity, robot.heading.angular_velocity);
+        let mut motion = robot.motion();
         if let Some(own) = motions.get(index) {
             let Vector { x: forward, y: left } = own.velocity;
-            velocity = heading * forward + heading.perp() * left;
-            turn = own.angular_velocity;
+            motion.velocity = motion.heading * forward + motion.heading.perp() * left;
+            motion.angular_velocity = own.angular_velocity;
         }
-        let bit = |bits: u64| f32::from(u8::from(bits >> index & 1 == 1));
-        columns.copy_from_slice(&[
-            position.x,
-            position.y,
-            heading.x,
-            heading.y,
-            velocity.x,
-            velocity.y,
-            turn,
-            bit(cut),
-            0.0,
-            0.0,
-            0.0,
-            0.0,
-        ]);
+        columns.fill(0.0);
+        write_motion(&motion, columns);
+        columns[MOTION_COLUMNS] = f32::from(u8::from(cut >> index & 1 == 1));
     }
+}
+
+/// Writes a motion into the columns of a robot.
+fn write_motion(motion: &Motion, columns: &mut [f32]) {
+    let Motion { position, heading, velocity, angular_velocity } = *motion;
+    columns[..MOTION_COLUMNS].copy_from_slice(&[
+        position.x,
+        position.y,
+        heading.x,
+        heading.y,
+        velocity.x,
+        velocity.y,
+        angular_velocity,
+    ]);
 }
 
 /// Writes what forecasts begin with into a row of what cameras tell: robots whose commands are known (the bits of
@@ -85,17 +89,7 @@ pub(super) fn write_driven(driven: &Driven, [known, others]: [u64; 2], out: &mut
     let stands = stands.map(|(index, place)| (index, place.at_rest()));
     let moves = set_bits(known).map(|index| (index, driven.motion(index)));
     for (index, motion) in moves.chain(stands) {
-        let Motion { position, heading, velocity, angular_velocity } = motion;
-        let columns = &mut rows[index * ROBOT_COLUMNS.len()..][..7];
-        columns.copy_from_slice(&[
-            position.x,
-            position.y,
-            heading.x,
-            heading.y,
-            velocity.x,
-            velocity.y,
-            angular_velocity,
-        ]);
+        write_motion(&motion, &mut rows[index * ROBOT_COLUMNS.len()..]);
     }
     if let Some(held) = driven.held().filter(|held| known >> held.robot & 1 == 1) {
         let (position, velocity) = held.motion(&driven.motion(held.robot));

@@ -97,7 +97,14 @@ impl VisionTracker {
 
     /// Whether a robot was seen not long before the last frame.
     pub fn has_robot(&self, robot: usize) -> bool {
-        self.time.is_some_and(|time| time - self.robots_seen[robot] <= ABSENT)
+        self.time.is_some_and(|time| self.in_sight(time) >> robot & 1 == 1)
+    }
+
+    /// Robots that were seen not long before a time (s), one bit each.
+    fn in_sight(&self, time: f64) -> u64 {
+        let seen = self.robots_seen.iter().enumerate();
+        seen.filter(|(_, seen)| time - **seen <= ABSENT)
+            .fold(0, |bits, (robot, _)| bits | 1 << robot)
     }
 
     /// Takes note of commands of all robots that were sent at a time (s, on the clock of the frames) to `robots`, one
@@ -136,20 +143,11 @@ impl VisionTracker {
             let balls: &[[f32; 2]] = if self.has_ball { balls } else { &[] };
             let frame = detections(time, balls, &known);
             // Of robots that were not seen no place is known that the ball could be at.
-            let in_sight = (0..self.robots_seen.len())
-                .filter(|robot| time - self.robots_seen[*robot] <= ABSENT)
-                .fold(0_u64, |bits, robot| bits | 1 << robot);
-            let cut = cut.filter(|_| self.has_ball).map(|cut| cut & in_sight);
+            let cut = cut.filter(|_| self.has_ball).map(|cut| cut & self.in_sight(time));
             let beams = cut.map(|cut| Beams { cut, parameters: &self.parameters });
             self.tracker.take(&self.sensing, &frame, self.config.ball.radius, beams);
             let held = self.tracker.held();
-            let orders = Orders {
-                sent: &self.sent,
-                timeout: self.sensing.timeout(),
-                parameters: &self.parameters,
-                tick: self.config.tick,
-                columns: self.config.command_columns().max(1),
-            };
+            let orders = Orders::new(&self.sent, &self.config, &self.sensing, &self.parameters);
             let tracked = Tracked { frame: &frame, held, beams, sensing: &self.sensing };
             self.driven.take(tracked, orders);
         }
@@ -177,10 +175,8 @@ impl VisionTracker {
             (!self.has_robot(robot)).then_some((track.track.position, track.heading.heading))
         };
         row::write_known(&self.tracker, 0, &[], absent, out);
-        let in_sight = (0..self.robots_seen.len())
-            .filter(|robot| self.has_robot(*robot))
-            .fold(0_u64, |bits, robot| bits | 1 << robot);
-        if self.commanded != 0 {
+        if let Some(time) = self.time.filter(|_| self.commanded != 0) {
+            let in_sight = self.in_sight(time);
             let (known, others) = (self.commanded & in_sight, !self.commanded & in_sight);
             row::write_driven(&self.driven, [known, others], out);
         }
