@@ -30,8 +30,6 @@ from rsoccer.protocols.schemas import fira_pb2, vision_pb2
 
 ROBOT: Final = "blue_0"
 """Name of the robot in the log."""
-GAP: Final = 0.001
-"""Gap between the robot's front and the ball that it will kick, m."""
 Row = dict[str, Any]
 
 
@@ -92,7 +90,7 @@ def record(place: str, ports: dict[str, int], speed: float, turn: float) -> Log:
     """
     known = PLACES[place]
     league = known.league
-    model = RobotModel("ssl_generic" if league == "ssl" else "vss_440rpm")
+    model = RobotModel(known.robot)
     config = SimConfig("ssl_b" if league == "ssl" else "vss_3v3", 1, 0, robot=model)
     settings = Settings(
         known.peer, ports={**known.ports, **ports}, groups=known.groups, referee="ignore"
@@ -143,7 +141,8 @@ def _bring_ball(stepper: NetworkSimulator, model: RobotModel, speed: float) -> N
         state.ball.position[0] = (x, 0.3 * config.field.width)
         state.ball.velocity[0] = (speed, 0.0)
     else:
-        front = model.front_distance + config.ball.radius + GAP
+        # They touch: kickers of simulators reach no farther.
+        front = model.front_distance + config.ball.radius
         state.ball.position[0] = (x + front, 0.0)
     stepper.restart(np.ones(1, np.bool_), state.rows.copy(), state.rows)
 

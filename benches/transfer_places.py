@@ -4,9 +4,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Final
 
-from rsoccer import BallModel, RobotModel, Sensing
+from rsoccer import Sensing
 from rsoccer.policies import make_policy
 from rsoccer.registry import make_task
+from rsoccer.sources import make_sensing
 from rsoccer.task import Task
 
 HOME: Final = "home"
@@ -31,12 +32,12 @@ class Place:
     """Groups that differ."""
     tracker: Mapping[str, Any] = field(default_factory=dict)
     """Noise of its vision, with which the tracker counts: numbers of `Sensing`."""
-    sensing: Mapping[str, Any] = field(default_factory=dict)
-    """Numbers of the senses of its likeness."""
-    robot: Mapping[str, Any] = field(default_factory=dict)
-    """Numbers of its robots that differ from those of the task: wheels, place of the mouth."""
-    ball: Mapping[str, Any] = field(default_factory=dict)
-    """Numbers of the ball of its likeness; none for that of the task."""
+    sensing: str = ""
+    """Senses of its likeness: a preset, also with numbers."""
+    robot: str = ""
+    """Preset of its robots; empty for those of the task."""
+    ball: str = ""
+    """Preset of the ball of its likeness; empty for that of the task."""
 
     @property
     def league(self) -> str:
@@ -44,48 +45,29 @@ class Place:
         return "vsss" if self.peer == "firasim" else "ssl"
 
 
-_ER_FORCE: Final = {
-    "name": "ssl_erforce",
-    "front_distance": 0.064,
-    "beam_distance": 0.013,
-    "max_acceleration": 5.8,
-    "max_deceleration": 7.9,
-    "max_angular_acceleration": 67.0,
-    "max_angular_deceleration": 96.0,
-}
-"""Its robots, by `rsoccer identify` from a log of `benches.transfer_logs`; the ball touches their
-dribbler at .0855 m, and is pushed at up to .0985 m."""
 PLACES: Final[Mapping[str, Place]] = {
     "grsim": Place(
         "grSim",
         "grsim",
         delay=0.03,
-        sensing={"frame_rate": 60.0, "tracker": 1.0, "command_delay": 0.03},
-        robot={
-            "name": "ssl_generic",
-            "front_distance": 0.0805,
-            "mouth_width": 0.08,
-            "max_acceleration": 3.6,
-            "max_deceleration": 3.9,
-            "max_angular_acceleration": 49.0,
-            "max_angular_deceleration": 39.0,
-        },
-        ball={"name": "grsim"},
+        sensing="grsim",
+        robot="ssl_grsim",
+        ball="grsim",
     ),
     "er-force": Place(
         "ER-Force, realism None",
         "ssl-simulation",
         delay=0.05,
-        sensing={"frame_rate": 66.67, "tracker": 1.0, "command_delay": 0.05},
+        sensing="erforce_simulator",
         ports={"vision": 10020},
-        robot=_ER_FORCE,
-        ball={"name": "ssl_erforce"},
+        robot="ssl_erforce_simulator",
+        ball="ssl_erforce_simulator",
     ),
     "er-force-rc2021": Place(
         "ER-Force, realism RC2021",
         "ssl-simulation",
         delay=0.055,
-        sensing={"name": "rc2021", "command_delay": 0.01},
+        sensing="rc2021, command_delay=0.01",
         ports={"vision": 10020},
         tracker={
             "frame_rate": 66.67,
@@ -93,21 +75,15 @@ PLACES: Final[Mapping[str, Place]] = {
             "robot_position_noise": 0.0013,
             "heading_noise": 0.01,
         },
-        robot=_ER_FORCE,
-        ball={"name": "ssl_erforce"},
+        robot="ssl_erforce_simulator",
+        ball="ssl_erforce_simulator",
     ),
     "firasim": Place(
         "FIRASim",
         "firasim",
         delay=0.035,
-        sensing={"command_delay": 0.035},
-        robot={
-            "name": "vss_440rpm",
-            "wheel_radius": 0.02,
-            "track_width": 0.085,
-            "max_wheel_speed": 59.9,
-            "longitudinal_grip": 1.26,
-        },
+        sensing="firasim",
+        robot="vss_firasim",
     ),
 }
 """Other simulators by name."""
@@ -176,11 +152,12 @@ def likeness(place: Place, trial: Trial) -> tuple[Task, Sensing]:
         trial: what is played.
     """
     options = _robot(place)
-    if place.ball and place.league == "ssl":
-        options["ball"] = BallModel(**place.ball)
-    numbers = dict(place.sensing) or {"command_delay": place.delay}
-    forecast: dict[str, Any] = {"forecast": 1.0} if is_forecast(trial) else {}
-    return make_task(trial.task, **options), Sensing(**numbers, **forecast)
+    if place.ball:
+        options["ball"] = place.ball
+    forecast = ", forecast=1" if is_forecast(trial) else ""
+    sensing = make_sensing(f"{place.sensing}{forecast}")
+    assert isinstance(sensing, Sensing), "a preset"
+    return make_task(trial.task, **options), sensing
 
 
 def as_played(place: Place, trial: Trial) -> tuple[Task, Sensing | None]:
@@ -198,4 +175,4 @@ def as_played(place: Place, trial: Trial) -> tuple[Task, Sensing | None]:
 
 def _robot(place: Place) -> dict[str, Any]:
     """The option `robot` of tasks that are played in a place."""
-    return {"robot": RobotModel(**place.robot)} if place.robot else {}
+    return {"robot": place.robot} if place.robot else {}

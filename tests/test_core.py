@@ -239,7 +239,7 @@ def test_a_copied_simulator_continues_as_the_original(
     np.testing.assert_array_equal(driven(twin, 60, seed=1), driven(simulator, 60, seed=1))
 
 
-@pytest.mark.parametrize("junk", [b"", b"junk", b"rsimsna6", b"rsimsna6" + bytes(100)])
+@pytest.mark.parametrize("junk", [b"", b"junk", b"rsimsna7", b"rsimsna7" + bytes(100)])
 def test_a_foreign_snapshot_is_refused(junk: bytes) -> None:
     simulator = Simulator(CONFIG, WORLDS)
     before = simulator.snapshot()

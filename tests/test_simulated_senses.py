@@ -74,6 +74,9 @@ def test_robots_know_about_where_they_are(preset: str, task: str) -> None:
         matches.step(actions.astype(np.float32))
         errors.append(matches.play.sensed.blue.position - matches.frame.blue.position)
     distance = np.linalg.norm(errors, axis=-1)
+    if Sensing(preset).frame_rate == 0.0:
+        assert not distance.any(), "commands alone are late"
+        return
     assert 0.001 < np.median(distance) < 0.12, "45 ms of a robot at 2 m/s are 90 mm"
 
 

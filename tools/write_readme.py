@@ -15,7 +15,7 @@ import gymnasium
 import pettingzoo
 
 import rsoccer
-from benches import offline, scripted_ssl, tactics, transfer_tables
+from benches import offline, scripted_ssl, tactics, transfer_responses, transfer_tables
 from benches.learning.reporting import report as learning
 from benches.markdown import filled, table
 from rsoccer import policies
@@ -283,6 +283,7 @@ PARTS: dict[str, Callable[[], str]] = {
     "tasks": tasks,
     "training_speed": training_speed,
     "transfer": transfer_tables.transfer,
+    "transfer_responses": transfer_responses.report,
     "vsss_rules": referee_tables.vsss_rules,
     "vsss_scenes": referee_scenes.vsss_scenes,
     "whole_matches": whole_matches,

@@ -2187,7 +2187,7 @@ class VisionTracker:
             OverflowError: A negative index of `cut`.
         """
 
-    def read(self, out: NDArray[np.float32]) -> None:
+    def read(self, out: NDArray[np.float32], robots: list[int] | None = None) -> None:
         """Write the state at the last frame.
 
         Touches, crossings and beams are those of a match that begins. Robots that were not seen for
@@ -2195,10 +2195,14 @@ class VisionTracker:
 
         Args:
             out: Output (1, row), float32.
+            robots: Indices of the robots whose commands the reader knows, of those that were sent;
+                None for all.
 
         Raises:
-            ValueError: The array has another shape or cannot be written.
+            ValueError: The array has another shape or cannot be written, or an index that no robot
+                has.
             TypeError: The array has another type.
+            OverflowError: A negative index.
         """
 
 def referee_preset(name: str) -> str:

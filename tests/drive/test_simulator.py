@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pickle
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -22,6 +22,7 @@ from rsoccer.drive import (
 )
 from rsoccer.drive.connection import Connection
 from rsoccer.drive.link import Received
+from rsoccer.drive.network import CAMERA_NUMBERS
 from rsoccer.drive.simulator import SETTLED
 from rsoccer.evaluate import evaluate
 from rsoccer.frame import Frame
@@ -303,10 +304,51 @@ def test_the_forecast_is_the_state_after_the_delay() -> None:
     assert forecasting(0.0) is None
 
 
+def test_cameras_have_the_noise_that_is_told() -> None:
+    told = forecasting(0.1, "rc2021")
+    assert told is not None
+    assert told == Sensing(
+        command_delay=0.1,
+        forecast=1,
+        **{name: getattr(Sensing("rc2021"), name) for name in CAMERA_NUMBERS},
+    )
+    assert forecasting(0.0, Sensing("rc2021", frame_loss=0.5)) == forecasting(0.0, "rc2021")
+    with pytest.raises(ValueError, match="^cameras: .*rc2031"):
+        forecasting(0.0, "rc2031")
+    with pytest.raises(TypeError, match="cameras: expected a Sensing"):
+        forecasting(0.0, 3.0)  # type: ignore[arg-type]
+
+
 def test_robots_that_are_sent_equal_commands_are_forecast_to_go_on() -> None:
     sensing = Sensing(command_delay=0.1, command_timeout=0.15, forecast=1)
     *_, known = driven_ahead(sensing)
     assert Frame(known, 1, 0).robots.velocity[0, 0, 0] == pytest.approx(1.0, abs=0.02)
+
+
+def test_a_team_knows_the_commands_of_its_own_robots_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    config = SimConfig("ssl_b", 2, 1).with_sensing(forecasting(0.1))
+    wires = connected(config, ServerLink(referee="off"), "ssl-simulation", drives=(0, 1))
+    stepper, sight, asked = UntouchedNetwork(wires), wires.sight, list[object]()
+    read = sight.read
+
+    def asking(out: Floats, robots: Sequence[int] | None = None) -> None:
+        asked.append(robots)
+        read(out, robots)
+
+    out = np.empty((1, config.row_size), np.float32)
+    stepper.read(out)
+    commands = np.zeros((1, 3, len(config.command_columns)), np.float32)
+    commands[..., 0] = 1.0
+    for _ in range(20):
+        stepper.step(commands, out)
+    monkeypatch.setattr(sight, "read", asking)
+    knowing = [np.empty_like(out) for _ in range(2)]
+    for known, team in zip(knowing, ("blue", "yellow"), strict=True):
+        stepper.sense(known, None, team)
+    assert asked == [range(2), range(2, 3)]
+    for known in knowing:
+        robots = Frame(known, 2, 1).robots
+        np.testing.assert_allclose(np.linalg.norm(robots.velocity[0], axis=-1), 1.0, atol=0.05)
 
 
 def test_a_policy_is_evaluated_there() -> None:

@@ -102,3 +102,18 @@ def test_files_that_cannot_be_read(tmp_path: Path) -> None:
         read_log(tmp_path)
     with pytest.raises(ValueError, match="expected one file"):
         read_log()
+
+
+def test_a_body_at_rest_is_seen_in_every_frame() -> None:
+    """Cameras without noise repeat its pose, and so do loops that are faster than a camera."""
+    rows = []
+    for tick in range(600):  # a loop at 200 Hz, a camera at 50 Hz
+        frame = tick // 4
+        x = 0.02 * max(frame - 100, 0)
+        rows.append({"time": tick / 200, "robot": "ball", "x": x, "y": 0.0})
+        rows.append({"time": tick / 200, "robot": "a", "x": 0.01 * frame, "y": 0.0, "theta": 0.0})
+    log = Log.of_rows(rows)
+    np.testing.assert_allclose(np.diff(log.poses["a"].times), 0.02)
+    assert len(log.ball) == pytest.approx(150, abs=2)
+    np.testing.assert_allclose(np.diff(log.ball.times), 0.02, atol=0.006)
+    assert (log.ball.positions[:99, 0] == 0.0).all()

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 COLORS = {
     "ssl_tigers": "#3a7d44",
     "ssl_erforce": "#d98e04",
+    "ssl_erforce_simulator": "#8a5a00",
     "ssl_vision": "#8a8f98",
     "ssl_robocup_2023": "#6b4fa0",
     "ssl_lab_2023": "#c05a9a",
@@ -30,6 +31,7 @@ COLORS = {
     "vss_rsim": "#2f6f9f",
 }
 DASHED = {
+    "ssl_erforce_simulator",
     "ssl_vision",
     "ssl_robocup_2023",
     "ssl_lab_2023",

@@ -5,6 +5,7 @@ number in a preset shows.
 """
 
 from dataclasses import dataclass, field, replace
+from math import pi
 
 G = 9.81  # m/s²
 SOLID_SPHERE = 2 / 5  # moment of inertia of a solid sphere divided by m r²
@@ -69,6 +70,14 @@ LAB_2023 = replace(
     rolling_drag=0.044,
     slide_to_roll_ratio=0.66,
 )
+MIMICKED = "`rsoccer identify` on a log of {}"
+ERFORCE_SIMULATOR = replace(
+    ERFORCE,
+    source=MIMICKED.format("ER-Force's simulator; other numbers: ssl_erforce"),
+    sliding_deceleration=3.91,
+    rolling_deceleration=0.35,
+    slide_to_roll_ratio=0.688,
+)
 GRSIM = replace(
     ERFORCE,
     source="grSim's report and measurements of rSim's SSL ball (along an axis)",
@@ -90,6 +99,7 @@ RSIM_VSS = replace(
 BALLS = {
     "ssl_tigers": TIGERS,
     "ssl_erforce": ERFORCE,
+    "ssl_erforce_simulator": ERFORCE_SIMULATOR,
     "ssl_vision": VISION,
     "ssl_robocup_2023": ROBOCUP_2023,
     "ssl_lab_2023": LAB_2023,
@@ -129,6 +139,13 @@ SSL_ROBOTS = {
     "ssl_kiks": SslRobot(0.089, 0.132, 2.6, 8, 8, 0.070, 0.081),
     "ssl_robodragons": SslRobot(0.090, 0.125, 2.4, 6.5, 6.5, 0.0715, 0.075),
 }
+SSL_MIMICS = {
+    "ssl_grsim": SslRobot(0.090, 0.143, 2.7, 8, 8, 0.0805, 0.08, 3.7, 26.2, 3.6, 3.9, 49, 39),
+    "ssl_erforce_simulator": SslRobot(
+        *(0.089, 0.138, 1.5, 8, 8, 0.064, 0.070), *(3.7, 26.2, 5.8, 7.9, 67, 96)
+    ),
+}
+"""Robots of other simulators as they move there: their numbers are those of a fit."""
 GENERIC = SSL_ROBOTS["ssl_generic"]
 
 
@@ -201,6 +218,12 @@ VSS_ROBOTS = {
     "vss_650rpm": VssRobot(
         "TraveSim, from CAD; Pololu 50:1 motors; friction coefficient of the field 0.6",
         *(0.078, 0.18, 0.025, 0.071, 650, 0.6 * G, 0.6 * G, 0.062, 0.073),
+    ),
+}
+VSS_MIMICS = {
+    "vss_firasim": VssRobot(
+        "FIRASim: step responses, grip by `rsoccer identify`, mass of its configuration",
+        *(0.075, 1.4, 0.02, 0.085, 59.9 * 30 / pi, 1.08, 0.61, 0.075, 0.0725),
     ),
 }
 

@@ -9,8 +9,10 @@ from tools.physics.check import Checks, Criterion, percent
 from tools.physics.cited import (
     BALLS,
     FIELDS,
+    SSL_MIMICS,
     SSL_ROBOTS,
     SSL_SHARED,
+    VSS_MIMICS,
     VSS_ROBOTS,
     Ball,
     SslRobot,
@@ -19,17 +21,17 @@ from tools.physics.cited import (
 
 TOPIC = "presets"
 CITED = Criterion(TOPIC, "preset number", "", percent(0.01), "cited source")
-LIMITED = {"ssl_unknown"}  # has its own limits
+LIMITED = {"ssl_unknown", "ssl_grsim", "ssl_erforce_simulator"}  # have limits of their own
 
 
 def checks() -> Checks:
     """Yield one check per cited number of a preset."""
     for name, ball in BALLS.items():
         yield from _compared("ball", name, BallModel(name), _fields(ball))
-    for name, robot in SSL_ROBOTS.items():
+    for name, robot in (SSL_ROBOTS | SSL_MIMICS).items():
         shared = {} if name in LIMITED else {key: n.value for key, n in SSL_SHARED.items()}
         yield from _compared("robot", name, RobotModel(name), _fields(robot) | shared)
-    for name, vss in VSS_ROBOTS.items():
+    for name, vss in (VSS_ROBOTS | VSS_MIMICS).items():
         cited = _fields(vss) | {"max_wheel_speed": vss.rpm / 60 * 2 * pi}
         del cited["rpm"]
         yield from _compared("robot", name, RobotModel(name), cited)
@@ -130,7 +132,7 @@ def ssl_table() -> str:
         "wheel angles (degrees)",
     )
     rows = []
-    for name in SSL_ROBOTS:
+    for name in SSL_ROBOTS | SSL_MIMICS:
         robot = RobotModel(name)
         command = "wheel speeds" if robot.drive == "omni_wheels" else "body velocity"
         sizes = (1000 * size for size in (robot.radius, robot.front_distance, robot.height))
@@ -172,7 +174,7 @@ def vss_table() -> str:
         "source",
     )
     rows = []
-    for name, cited in VSS_ROBOTS.items():
+    for name, cited in (VSS_ROBOTS | VSS_MIMICS).items():
         robot = RobotModel(name)
         rows.append(
             (

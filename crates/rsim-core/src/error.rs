@@ -214,6 +214,9 @@ pub enum SnapshotError {
     /// Bytes that this crate did not write.
     #[error("these bytes are not a snapshot")]
     Foreign,
+    /// A snapshot of a version that stores states in another way.
+    #[error("the snapshot is of another version of rsim-core, which stores states in another way")]
+    Layout,
     /// A snapshot of another physics version.
     #[error("the snapshot is of physics {found}, this is physics {expected}")]
     Version {

@@ -150,6 +150,7 @@ fn foreign_and_damaged_snapshots_are_refused() {
     let (mut batch, _) = scenes::chase().batch(2, 1);
     let good = batch.snapshot();
     assert_eq!(batch.restore(b"something else"), Err(SnapshotError::Foreign));
+    assert_eq!(batch.restore(b"rsimsna0 and more"), Err(SnapshotError::Layout));
     for cut in [8, 20, 60, good.len() - 1] {
         assert!(
             matches!(batch.restore(&good[..cut]), Err(SnapshotError::Damaged(_))),

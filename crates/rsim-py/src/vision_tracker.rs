@@ -80,9 +80,11 @@ impl VisionTracker {
         Ok(self.0.send(time, &commands, robots))
     }
 
-    fn read(&self, out: &Bound<'_, PyAny>) -> PyResult<()> {
+    #[pyo3(signature = (out, robots = None))]
+    fn read(&self, out: &Bound<'_, PyAny>, robots: Option<Vec<usize>>) -> PyResult<()> {
+        let known = robots.map_or(Ok(u64::MAX), |robots| self.bits("robots", &robots))?;
         let mut out: RowsOut = writeable("out", out, &[1, self.0.config().row_size()])?;
-        self.0.write_row(out.as_slice_mut()?);
+        self.0.write_row(known, out.as_slice_mut()?);
         Ok(())
     }
 

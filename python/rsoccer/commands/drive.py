@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from rsoccer.drive.settings import Settings
 
 _IDS = arg(metavar="[INT [INT ...]]", help_behavior_hint="(default: 0, 1, ...)")
+_CAMERAS = arg(metavar="PRESET|FILE", help_behavior_hint="(default: the least noise)")
 _LIMIT = arg(help_behavior_hint="(default: none)")
 REPORTED_STEPS: Final = 20
 """Control steps of an episode from which its end is reported."""
@@ -57,6 +58,9 @@ class Drive(Imports):
     delay: float = 0.0
     """time from a command until vision shows its effect, seconds: the policy knows the state after
     it. --check measures it"""
+    cameras: Annotated[str | None, _CAMERAS] = None
+    """senses whose noise and frame rate the cameras have, with which the tracker averages;
+    `rsoccer identify` measures them"""
     max_speed: Annotated[float, _LIMIT] = math.inf
     """greatest speed of a robot, m/s"""
     max_angular_velocity: Annotated[float, _LIMIT] = math.inf
@@ -156,7 +160,9 @@ class Drive(Imports):
     def _play(self, policy: str, task: Task, settings: Settings) -> None:
         from rsoccer.drive.session import Session
 
-        session = Session(policy, task, settings, delay=self.delay, seed=self.seed)
+        session = Session(
+            policy, task, settings, delay=self.delay, cameras=self.cameras, seed=self.seed
+        )
         try:
             session.connection.on_event.append(_tell)
             session.begin()

@@ -12,19 +12,41 @@ from rsoccer.drive.settings import Settings
 from rsoccer.drive.simulator import NetworkSimulator, NetworkStepper
 from rsoccer.game import BLUE, YELLOW
 
+CAMERA_NUMBERS: Final = (
+    *("frame_rate", "ball_position_noise", "robot_position_noise", "heading_noise"),
+)
+"""Numbers of `Sensing` with which the tracker of detections counts."""
 
-def forecasting(delay: float) -> Sensing | None:
+
+def forecasting(delay: float, cameras: str | Sensing | None = None) -> Sensing | None:
     """Return the senses of robots that know their state ahead of a delay.
 
     Args:
         delay: time from a command until vision shows its effect, s, 0 or above, as
             `rsoccer drive --check` measures it.
+        cameras: senses whose noise and frame rate those of the cameras are, such as "rc2021"; None
+            for the least noise that the tracker counts with. `rsoccer identify` measures them.
 
     Returns:
-        Senses for `Matches(sensing=...)`; None without delay.
+        Senses for `Matches(sensing=...)`; None without delay and cameras.
+
+    Raises:
+        TypeError: cameras of another type.
+        ValueError: a delay outside 0 to 1, or a text that names no preset and no file.
     """
     delay = checks.number_in_range("delay", delay, 0.0, 1.0)
-    return Sensing(command_delay=delay, forecast=1.0) if delay else None
+    numbers: dict[str, Any] = {"command_delay": delay, "forecast": 1.0} if delay else {}
+    if cameras is not None:
+        try:
+            model = Sensing(cameras) if isinstance(cameras, str) else cameras
+        except (FileNotFoundError, ValueError) as error:
+            raise ValueError(f"cameras: {error}") from error
+        if not isinstance(model, Sensing):
+            raise TypeError(
+                f"cameras: expected a Sensing, or the name of a preset, got {cameras!r}"
+            )
+        numbers |= {name: getattr(model, name) for name in CAMERA_NUMBERS}
+    return Sensing(**numbers) if numbers else None
 
 
 class Network:

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from rsoccer._core import Sensing
 from rsoccer.arrays import Floats
 from rsoccer.controllers import Controller
 from rsoccer.drive.connection import Connection
@@ -65,6 +66,7 @@ class Session:
         settings: Settings,
         *,
         delay: float = 0.0,
+        cameras: str | Sensing | None = None,
         seed: int = 0,
         link: Link | None = None,
         clock: Callable[[], float] = time.monotonic,
@@ -77,6 +79,8 @@ class Session:
             settings: the settings.
             delay: time from a command until vision shows its effect, s: policies know the state
                 after it. 0 for the state of the newest frame.
+            cameras: senses whose noise and frame rate those of the cameras are; None for the least
+                noise that the tracker counts with.
             seed: seed of the policy's random numbers.
             link: what carries datagrams; None for sockets.
             clock: time on the wall, s.
@@ -86,7 +90,7 @@ class Session:
             ValueError: a policy that does not fit the task, one that has learned behind a forecast
                 without a delay, or settings that do not fit.
         """
-        sensing = forecasting(delay)
+        sensing = forecasting(delay, cameras)
         config = task.config.with_sensing(sensing)
         rules = task.referee_config if isinstance(task, Match) else None
         self.connection = Connection(config, settings, rules=rules, link=link, clock=clock)

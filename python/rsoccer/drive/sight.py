@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Final
 
 import numpy as np
@@ -81,11 +81,13 @@ class Sight(ABC):
         """
 
     @abstractmethod
-    def read(self, out: Floats) -> None:
+    def read(self, out: Floats, robots: Sequence[int] | None = None) -> None:
         """Write the newest state; robots out of sight are absent.
 
         Args:
             out: (1, row) output; touches, crossings and beams are those of a match that begins.
+            robots: robots whose commands tell where they are between frames; None for all whose
+                commands were noted.
         """
 
     @abstractmethod
@@ -105,7 +107,7 @@ class Sight(ABC):
         """
 
     @abstractmethod
-    def note(self, time: float, commands: Floats, driven: Mask) -> None:
+    def note_commands(self, time: float, commands: Floats, driven: Mask) -> None:
         """Take note of commands, which tell where robots are between frames.
 
         Args:
@@ -220,12 +222,12 @@ class DetectionSight(Sight):
         )
         return time > before or self.frames == 1
 
-    def read(self, out: Floats) -> None:
+    def read(self, out: Floats, robots: Sequence[int] | None = None) -> None:
         """Write the newest state; see `Sight.read`."""
-        self._tracker.read(out)
+        self._tracker.read(out, None if robots is None else list(robots))
 
-    def note(self, time: float, commands: Floats, driven: Mask) -> None:
-        """Take note of commands; see `Sight.note`."""
+    def note_commands(self, time: float, commands: Floats, driven: Mask) -> None:
+        """Take note of commands; see `Sight.note_commands`."""
         self._tracker.send(time, commands, np.flatnonzero(driven).tolist())
 
     def turn(self, layout: WireLayout) -> None:

@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from rsoccer._core import BALL_COLUMNS, Forecaster
+from rsoccer._core import BALL_COLUMNS, ROBOT_COLUMNS, Forecaster
 from rsoccer.arrays import Doubles, Floats, Mask
 from rsoccer.completed import CompletedStepper
 from rsoccer.drive.connection import Connection
@@ -36,6 +36,7 @@ SETTLING: Final = 2.0
 """Longest time for which robots are left to stand before they are put somewhere, s: those of
 FIRASim take 1 s."""
 _BALL_SIZE: Final = len(BALL_COLUMNS)
+_MOTION_SIZE: Final = ROBOT_COLUMNS.index("v_theta") + 1
 _ALL: Final = np.ones(1, np.bool_)
 
 
@@ -94,7 +95,7 @@ class NetworkStepper(Stepper, Reader, SensingStepper, Closer):
     def _note(self, time: float, commands: Floats) -> None:
         for forecaster in self._forecasters.values():
             forecaster.send(commands[None], np.array([time]))
-        self.connection.sight.note(time, commands, self.connection.driven)
+        self.connection.sight.note_commands(time, commands, self.connection.driven)
 
     def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> Doubles | None:
         """Let the robots execute commands for a control step; see `Stepper.step`.
@@ -145,9 +146,24 @@ class NetworkStepper(Stepper, Reader, SensingStepper, Closer):
             return
         sensing = self.connection.config.sensing
         shares = sensing is not None and sensing.forecast_others >= 0.5
+        begin = self._rows.rows if shares else self._estimates(known)
         seen = np.array([self.connection.sight.clock.now])
         forecaster = self._forecasters["all" if shares else known]
-        forecaster.forecast(self._rows.rows, seen, np.array([self.connection.now]), out)
+        forecaster.forecast(begin, seen, np.array([self.connection.now]), out)
+
+    def _estimates(self, team: str) -> Floats:
+        """The present row as a team knows it that has sent the commands of its own robots alone."""
+        config = self.connection.config
+        own = range(config.n_blue) if team == "blue" else range(config.n_blue, config.n_robots)
+        known = Frame.empty(1, config.n_blue, config.n_yellow)
+        self.connection.sight.read(known.rows, own)
+        present = self._rows.copy()
+        present.ball.position[:], present.ball.velocity[:] = (
+            known.ball.position,
+            known.ball.velocity,
+        )
+        present.robots.data[..., :_MOTION_SIZE] = known.robots.data[..., :_MOTION_SIZE]
+        return present.rows
 
     def close(self) -> None:
         """Stop the robots, and close a connection of its own."""

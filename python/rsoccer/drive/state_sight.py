@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Final
 
 import numpy as np
@@ -40,8 +40,8 @@ class StateSight(Sight):
         super().__init__(layout)
         self._frame = self._nothing()
 
-    def note(self, time: float, commands: Floats, driven: Mask) -> None:
-        """Ignore commands: messages have velocities; see `Sight.note`."""
+    def note_commands(self, time: float, commands: Floats, driven: Mask) -> None:
+        """Ignore commands: messages have velocities; see `Sight.note_commands`."""
 
     def _nothing(self) -> Frame:
         return Tracked.begin(self.layout, None, 0.0).frame
@@ -61,14 +61,14 @@ class StateSight(Sight):
         self.has_ball |= ball
         self._note(named, np.flatnonzero(tracked.seen & near).tolist(), time)
 
-    def read(self, out: Floats) -> None:
+    def read(self, out: Floats, robots: Sequence[int] | None = None) -> None:
         """Write the newest state; see `Sight.read`."""
         out[:] = self._frame.rows
         lost = ~self.in_sight
-        robots = Frame(out, self._frame.n_blue, self._frame.n_yellow).robots.data
-        robots[0, lost] = 0.0
-        robots[0, lost, 2] = 1.0
-        robots[0, lost, _ABSENT] = 1.0
+        columns = Frame(out, self._frame.n_blue, self._frame.n_yellow).robots.data
+        columns[0, lost] = 0.0
+        columns[0, lost, 2] = 1.0
+        columns[0, lost, _ABSENT] = 1.0
 
     def turn(self, layout: WireLayout) -> None:
         """Go on with other sides; see `Sight.turn`."""

@@ -19,6 +19,7 @@ robot's commands, and those of a body's poses, increase.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -26,7 +27,7 @@ from typing import Final
 
 import numpy as np
 
-from rsoccer.arrays import Doubles
+from rsoccer.arrays import Doubles, Mask
 
 BALL: Final = "ball"
 """Name of the ball in the column `robot`."""
@@ -40,6 +41,8 @@ KEYS: Final = ("time", "robot")
 """Columns of every row."""
 NUMBERS: Final = (*POSE, "captured", *(name for names in DRIVES.values() for name in names), KICK)
 """Columns of which a row has some."""
+_REST: Final = 4.0  # frames without a change after which a body is at rest
+_NEXT: Final = 0.9  # frames from one pose of a body at rest to the next
 
 
 @dataclass(frozen=True)
@@ -195,7 +198,26 @@ def _commands(robot: str, rows: Sequence[Sequence[float]]) -> Commands:
 def _track(name: str, rows: Sequence[Sequence[float]]) -> Track:
     """Poses without those that only repeat the last: a loop that is faster than its camera."""
     table = _in_order(f"the poses of {name}", rows, 5)
-    new = np.ones(len(table), np.bool_)
-    new[1:] = (np.diff(table[:, 1:4], axis=0) != 0).any(axis=1) & (np.diff(table[:, 0]) > 0)
-    table = table[new]
+    table = table[_is_new(table[:, 0], table[:, 1:4])]
     return Track(table[:, 0], table[:, 1:3], table[:, 3], table[:, 4])
+
+
+def _is_new(times: Doubles, poses: Doubles) -> Mask:
+    """Mask (n,) of poses that a camera saw anew.
+
+    They differ from the last one, or a body rests: then one a frame is new.
+    """
+    moved = np.ones(len(times), np.bool_)
+    moved[1:] = (np.diff(poses, axis=0) != 0).any(axis=1) & (np.diff(times) > 0)
+    begins = np.flatnonzero(moved)
+    if len(begins) < 2:
+        return moved  # nothing tells of frames
+    frame = float(np.median(np.diff(times[begins])))
+    for begin, end in itertools.pairwise([*begins.tolist(), len(times)]):
+        if times[end - 1] - times[begin] < _REST * frame:
+            continue
+        last = begin
+        for index in range(begin + 1, end):
+            if times[index] - times[last] >= _NEXT * frame:
+                moved[index], last = True, index
+    return moved

@@ -32,8 +32,12 @@ pub(crate) fn is_same(one: Acting<'_>, other: Acting<'_>) -> bool {
 }
 
 impl CommandLog {
-    /// Adds the commands that act from time `acts`, s, which is not before that of the last ones.
+    /// Adds the commands that act from time `acts`, s, which is not before that of the last ones. Those of the same
+    /// time act no more.
     pub(crate) fn add(&mut self, acts: f64, commands: &[f32]) {
+        if self.sent.back().is_some_and(|last| last.acts >= acts) {
+            self.spare.extend(self.sent.pop_back().map(|last| last.commands));
+        }
         let mut copied = self.spare.pop().unwrap_or_default();
         copied.clear();
         copied.extend_from_slice(commands);
@@ -95,6 +99,10 @@ mod tests {
         assert_eq!((at(&log, 0.11, None), at(&log, 0.13, None)), (None, Some(2.0)));
         log.forget_before(9.0);
         assert_eq!(at(&log, 9.0, None), Some(3.0), "the last ones act on");
+        log.add(9.5, &[4.0]);
+        log.add(9.5, &[5.0]);
+        assert_eq!((at(&log, 9.4, None), at(&log, 9.6, None)), (Some(3.0), Some(5.0)));
+        assert_eq!(log.sent.len(), 2, "time that stands does not let the log grow");
         log.clear();
         assert_eq!((at(&log, 9.0, None), log.last(), log.known_since()), (None, None, None));
     }

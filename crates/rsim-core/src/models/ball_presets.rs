@@ -111,10 +111,21 @@ impl BallModel {
         ..Self::SSL_TIGERS
     };
 
+    /// The ball of ER-Force's simulator (9814d057) as it rolls there: floor by `rsoccer identify` from a log of
+    /// `benches.transfer_logs`. Other numbers: [`Self::SSL_ERFORCE`].
+    pub const SSL_ERFORCE_SIMULATOR: Self = Self {
+        name: Cow::Borrowed("ssl_erforce_simulator"),
+        sliding_deceleration: 3.91,
+        rolling_deceleration: 0.35,
+        slide_to_roll_ratio: 0.688,
+        ..Self::SSL_ERFORCE
+    };
+
     /// All presets.
-    pub const PRESETS: [Self; 7] = [
+    pub const PRESETS: [Self; 8] = [
         Self::SSL_TIGERS,
         Self::SSL_ERFORCE,
+        Self::SSL_ERFORCE_SIMULATOR,
         Self::SSL_VISION,
         Self::SSL_ROBOCUP_2023,
         Self::SSL_LAB_2023,

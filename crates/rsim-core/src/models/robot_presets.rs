@@ -53,6 +53,23 @@ impl RobotModel {
         ..Self::VSS_440RPM
     };
 
+    /// The robot of `FIRASim` (8955749) as it moves there: radius of the wheels, track and top speed by step
+    /// responses, grip by `rsoccer identify` from a log of `benches.transfer_logs`, mass of its `Parsian.ini`, body
+    /// and two wheels.
+    pub const VSS_FIRASIM: Self = Self {
+        name: Cow::Borrowed("vss_firasim"),
+        mass: 1.4,
+        drive: Drive::Differential(DifferentialDrive {
+            wheel_radius: 0.02,
+            track_width: 0.085,
+            max_wheel_speed: 59.9,
+            motor_torque: 0.0725,
+            longitudinal_grip: 1.08,
+            lateral_grip: 0.61,
+        }),
+        ..Self::VSS_440RPM
+    };
+
     /// A generic SSL robot: body of the official virtual tournament's fallback, limits that
     /// all its listed teams share, kicks of three of its seven teams.
     pub const SSL_GENERIC: Self =
@@ -134,10 +151,43 @@ impl RobotModel {
     pub const SSL_ROBODRAGONS: Self =
         ssl("ssl_robodragons", [0.090, 0.125, 2.4], [6.5, 6.5], [0.0715, 0.075], Drive::Omni(OMNI));
 
+    /// The robot of grSim (fe2bd29) as it moves there: limits by `rsoccer identify` from a log of
+    /// `benches.transfer_logs`; a ball touches its kicker at 0.102 m.
+    pub const SSL_GRSIM: Self = ssl(
+        "ssl_grsim",
+        FALLBACK_BODY,
+        [8.0, 8.0],
+        [0.0805, 0.08],
+        Drive::Omni(OmniDrive {
+            max_acceleration: 3.6,
+            max_deceleration: 3.9,
+            max_angular_acceleration: 49.0,
+            max_angular_deceleration: 39.0,
+            ..OMNI
+        }),
+    );
+
+    /// The robot of ER-Force's simulator (9814d057) as it moves there: limits by the same, body of
+    /// [`Self::SSL_ERFORCE`]; a ball touches its dribbler at 0.0855 m and is reported up to 0.0985 m.
+    pub const SSL_ERFORCE_SIMULATOR: Self = with_mouth(
+        "ssl_erforce_simulator",
+        [0.089, 0.138, 1.5],
+        0.064,
+        Mouth { beam_distance: 0.013, ..mouth([8.0, 8.0], 0.070) },
+        Drive::Omni(OmniDrive {
+            max_acceleration: 5.8,
+            max_deceleration: 7.9,
+            max_angular_acceleration: 67.0,
+            max_angular_deceleration: 96.0,
+            ..OMNI
+        }),
+    );
+
     /// All presets.
-    pub const PRESETS: [Self; 12] = [
+    pub const PRESETS: [Self; 15] = [
         Self::VSS_440RPM,
         Self::VSS_650RPM,
+        Self::VSS_FIRASIM,
         Self::SSL_GENERIC,
         Self::SSL_GENERIC_WHEELS,
         Self::SSL_UNKNOWN,
@@ -148,6 +198,8 @@ impl RobotModel {
         Self::SSL_UBC,
         Self::SSL_KIKS,
         Self::SSL_ROBODRAGONS,
+        Self::SSL_GRSIM,
+        Self::SSL_ERFORCE_SIMULATOR,
     ];
 
     /// The preset with this name.
@@ -190,9 +242,20 @@ const FALLBACK_MOUTH: [f32; 2] = [0.0715, 0.065];
 /// (kg); maximum kick and chip speed (m/s); shoot radius and dribbler width (m).
 const fn ssl(
     name: &'static str,
-    [radius, height, mass]: [f32; 3],
-    [max_kick_speed, max_chip_speed]: [f32; 2],
+    body: [f32; 3],
+    kicks: [f32; 2],
     [front_distance, mouth_width]: [f32; 2],
+    drive: Drive,
+) -> RobotModel {
+    with_mouth(name, body, front_distance, mouth(kicks, mouth_width), drive)
+}
+
+/// A round robot with a mouth: radius and height (m) and mass (kg); distance of its front, m.
+const fn with_mouth(
+    name: &'static str,
+    [radius, height, mass]: [f32; 3],
+    front_distance: f32,
+    mouth: Mouth,
     drive: Drive,
 ) -> RobotModel {
     RobotModel {
@@ -201,24 +264,29 @@ const fn ssl(
         height,
         mass,
         drive,
-        mouth: Some(Mouth {
-            mouth_width,
-            beam_distance: 0.010, // the old simulator: the ball within 10 mm of the plate
-            beam_height: 0.0215,  // through the middle of a ball on the floor
-            max_kick_speed,
-            max_chip_speed,
-            kicker_recharge_time: 0.1, // minimum of ER-Force's simulator
-            kick_lateral_factor: 0.35, // TIGERs: across the front, in a redirect
-            // Our choice: with the floor's friction on a ball with back-spin (3 m/s²) it holds the
-            // ball up to 5.6 m/s², less than a robot's maximum deceleration. TIGERs drive with the ball at up to
-            // 1.2 m/s² and 5 rad/s (Sumatra, DragBallSkill and ProtectiveGetBallSkill).
-            dribbler_grip: 0.12,
-            dribbler_force: 0.5, // TIGERs: minimum force of their bar on the ball
-            dribbler_speed: 2.0, // TIGERs: 2 to 5 m/s at the surface
-            dribbler_restitution: 0.2, // ER-Force: ball on dribbler bar
-            dribbler_friction: 1.5, // ER-Force: ball on dribbler bar
-        }),
+        mouth: Some(mouth),
         restitution: 0.2, // TIGERs' simulator, robot on robot
         friction: 0.2,    // none published for two robots; ER-Force's for ball on robot
+    }
+}
+
+/// The mouth of such a robot: maximum kick and chip speed (m/s), dribbler width (m).
+const fn mouth([max_kick_speed, max_chip_speed]: [f32; 2], mouth_width: f32) -> Mouth {
+    Mouth {
+        mouth_width,
+        beam_distance: 0.010, // the old simulator: the ball within 10 mm of the plate
+        beam_height: 0.0215,  // through the middle of a ball on the floor
+        max_kick_speed,
+        max_chip_speed,
+        kicker_recharge_time: 0.1, // minimum of ER-Force's simulator
+        kick_lateral_factor: 0.35, // TIGERs: across the front, in a redirect
+        // Our choice: with the floor's friction on a ball with back-spin (3 m/s²) it holds the
+        // ball up to 5.6 m/s², less than a robot's maximum deceleration. TIGERs drive with the ball at up to
+        // 1.2 m/s² and 5 rad/s (Sumatra, DragBallSkill and ProtectiveGetBallSkill).
+        dribbler_grip: 0.12,
+        dribbler_force: 0.5, // TIGERs: minimum force of their bar on the ball
+        dribbler_speed: 2.0, // TIGERs: 2 to 5 m/s at the surface
+        dribbler_restitution: 0.2, // ER-Force: ball on dribbler bar
+        dribbler_friction: 1.5, // ER-Force: ball on dribbler bar
     }
 }

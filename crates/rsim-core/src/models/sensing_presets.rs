@@ -135,9 +135,38 @@ impl Sensing {
         ..Self::OFF
     };
 
+    /// grSim (fe2bd29): exact frames at 60 Hz, and commands as late as vision shows their effect.
+    pub const GRSIM: Self = Self {
+        name: Cow::Borrowed("grsim"),
+        frame_rate: 60.0,
+        tracker: 1.0,
+        command_delay: 0.030,
+        ..Self::OFF
+    };
+
+    /// ER-Force's simulator (9814d057) with realism "None": the same at a frame in 15 ms.
+    pub const ERFORCE_SIMULATOR: Self = Self {
+        name: Cow::Borrowed("erforce_simulator"),
+        frame_rate: 1.0 / 0.015,
+        command_delay: 0.050,
+        ..Self::GRSIM
+    };
+
+    /// `FIRASim` (8955749): exact and with velocities, late by 35 ms.
+    pub const FIRASIM: Self =
+        Self { name: Cow::Borrowed("firasim"), command_delay: 0.035, ..Self::OFF };
+
     /// All presets.
-    pub const PRESETS: [Self; 5] =
-        [Self::OFF, Self::FRIENDLY, Self::RC2021, Self::REALISTIC, Self::VSSS];
+    pub const PRESETS: [Self; 8] = [
+        Self::OFF,
+        Self::FRIENDLY,
+        Self::RC2021,
+        Self::REALISTIC,
+        Self::VSSS,
+        Self::GRSIM,
+        Self::ERFORCE_SIMULATOR,
+        Self::FIRASIM,
+    ];
 
     /// The preset with this name.
     ///

@@ -67,7 +67,7 @@ pub(super) struct Tracked<'a> {
 
 /// Estimates of all robots at the instant of the last frame; each is that of a team that knows its commands.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub(super) struct Driven {
+pub(super) struct DrivenRobots {
     robots: Vec<Robot>,
     /// State of the wheels, by block.
     wheels: Vec<DriveState>,
@@ -80,12 +80,12 @@ pub(super) struct Driven {
     time: f64,
 }
 
-impl Driven {
+impl DrivenRobots {
     /// Estimates of `robots` robots by frames of some senses, one each `period` (s), before the first.
     pub(super) fn new(robots: usize, sensing: &Sensing, period: f32) -> Self {
         let filters = Filters::of(sensing, period, ACCELERATION, ANGULAR_ACCELERATION);
         let wheels = vec![DriveState::AT_REST; blocks_of(robots)];
-        let resting = Resting::new(robots);
+        let resting = Resting::new(robots, period);
         let robots = vec![Robot::new(); robots];
         Self { robots, wheels, held: None, resting, filters, time: 0.0 }
     }
@@ -115,12 +115,15 @@ impl Driven {
         for seen in &frame.robots {
             self.robots[seen.robot].update(&seen.motion, &self.filters);
         }
-        self.resting.take(frame, sensing);
+        self.resting.take(frame, elapsed, sensing);
         let known = self.held;
-        self.held = beams.zip(held).and_then(|(beams, held)| {
-            let mut held = known.filter(|known| known.robot == held.robot).unwrap_or(held);
-            let robot = self.robots[held.robot].motion();
-            held.take(&frame.balls, &robot, beams, sensing, elapsed).then_some(held)
+        self.held = beams.zip(held).map(|(beams, held)| {
+            // The tracker's hold has taken in this frame.
+            let Some(mut own) = known.filter(|known| known.robot == held.robot) else {
+                return held;
+            };
+            let robot = self.robots[own.robot].motion();
+            if own.take(&frame.balls, &robot, beams, sensing, elapsed) { own } else { held }
         });
     }
 
@@ -146,12 +149,12 @@ impl Driven {
             let (block, lane) = place_of(robot(index));
             motions[block].set(lane, &known.motion());
         }
-        let mut drive = Drive { orders, commands: Vec::new(), acting: None };
+        let mut drives = Drives { orders, commands: Vec::new(), acting: None };
         let (time, mut passed) = (elapsed.min(LOST), 0.0);
         while time - passed > ROUNDING * orders.tick {
             let part = orders.tick.min(time - passed);
             let now = self.time + f64::from(passed + part / 2.0);
-            drive.go_on(&mut motions, &mut self.wheels, now, part);
+            drives.follow(&mut motions, &mut self.wheels, now, part);
             passed += part;
         }
         for (index, known) in self.robots.iter_mut().enumerate() {
@@ -162,7 +165,7 @@ impl Driven {
 }
 
 /// The drives of all robots, which follow known commands.
-struct Drive<'a> {
+struct Drives<'a> {
     orders: Orders<'a>,
     /// Commands of the wheels, by block.
     commands: Vec<BlockCommands>,
@@ -170,9 +173,9 @@ struct Drive<'a> {
     acting: Option<Acting<'a>>,
 }
 
-impl Drive<'_> {
+impl Drives<'_> {
     /// Lets robots drive for a tick or a part of one (s) with its middle at `now`, s.
-    fn go_on(
+    fn follow(
         &mut self,
         motions: &mut [MotionBlock],
         wheels: &mut [DriveState],

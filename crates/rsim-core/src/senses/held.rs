@@ -12,6 +12,7 @@ use crate::geometry::motion::Motion;
 use crate::math::Vector;
 use crate::models::sensing::Sensing;
 use crate::senses::detections::DetectedBall;
+use crate::senses::noise::Noise;
 use crate::senses::track::Parts;
 
 /// Acceleration of a held ball in the mouth that its filter counts with, m/s²: it slips along the dribbler when the
@@ -23,8 +24,11 @@ const ACCELERATION: f32 = 2.0;
 const DEVIATIONS: f32 = 4.0;
 const MIN_MARGIN: f32 = 0.01;
 
-/// Time between two frames that a velocity is computed with at least, s.
+/// Time between two detections that a velocity is computed with at least, s.
 const MIN_PERIOD: f32 = 0.001;
+
+/// Time without a detection after which nobody knows where the ball slips, s: two frames at 60 Hz and some more.
+const SLIP_LOST: f32 = 0.04;
 
 /// Break beams that are known to be cut, and the robots.
 #[derive(Clone, Copy)]
@@ -42,13 +46,15 @@ pub(super) struct Held {
     /// Place in the robot's frame, m, and velocity there, m/s.
     place: Vector,
     velocity: Vector,
+    /// Time since the last detection, s.
+    unseen: f32,
 }
 
 /// Part of a mouth in which the center of a held ball can be, in the robot's frame, m.
 struct Room {
     from: Vector,
     to: Vector,
-    /// Standard deviation of a detection of the ball there, m.
+    /// Standard deviation of a detection of the ball there that filters count with, m.
     deviation: f32,
 }
 
@@ -59,10 +65,9 @@ impl Room {
         let mouth = model.mouth.as_ref()?;
         let (front, radius) = (model.front_distance(), beams.parameters.ball.radius);
         let side = mouth.mouth_width / 2.0;
-        let turned = sensing.heading_noise * (front + radius);
-        let variance = sensing.ball_position_noise.powi(2)
-            + sensing.robot_position_noise.powi(2)
-            + turned * turned;
+        let noise = Noise::of(sensing);
+        let turned = noise.heading * (front + radius);
+        let variance = noise.ball * noise.ball + noise.robot * noise.robot + turned * turned;
         Some(Self {
             from: Vector::new(front + radius, -side),
             to: Vector::new(front + radius + mouth.beam_distance, side),
@@ -99,7 +104,7 @@ impl Held {
             let place = in_frame(ball, &robots(robot));
             let is_there = room.distance(place) <= room.margin();
             let place = place.clamp(room.from, room.to);
-            is_there.then_some(Self { robot, place, velocity: Vector::ZERO })
+            is_there.then_some(Self { robot, place, velocity: Vector::ZERO, unseen: 0.0 })
         })
     }
 
@@ -117,11 +122,13 @@ impl Held {
             return false;
         }
         let Some(room) = Room::of(self.robot, beams, sensing) else { return false };
+        let predicted = self.place + self.velocity * period;
+        self.unseen += period;
         let places = balls.iter().map(|ball| in_frame(ball.position, robot));
         let nearest = places.min_by(|a, b| room.distance(*a).total_cmp(&room.distance(*b)));
         let Some(place) = nearest else {
-            // Where it slips is unknown as long as no camera of this instant sees it.
-            if period > 0.0 {
+            self.place = predicted.clamp(room.from, room.to);
+            if self.unseen > SLIP_LOST {
                 self.velocity = Vector::ZERO;
             }
             return true;
@@ -129,11 +136,12 @@ impl Held {
         if room.distance(place) > room.margin() {
             return false;
         }
-        let parts = Parts::stationary(ACCELERATION * period * period / room.deviation.max(1e-5));
-        let predicted = self.place + self.velocity * period;
+        let time = self.unseen.min(SLIP_LOST);
+        let parts = Parts::stationary(ACCELERATION * time * time / room.deviation);
         let difference = place - predicted;
         self.place = (predicted + difference * parts.alpha).clamp(room.from, room.to);
-        self.velocity += difference * (parts.beta / period.max(MIN_PERIOD));
+        self.velocity += difference * (parts.beta / time.max(MIN_PERIOD));
+        self.unseen = 0.0;
         true
     }
 

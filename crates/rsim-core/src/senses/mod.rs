@@ -10,6 +10,7 @@ pub(crate) mod detections;
 mod driven;
 mod held;
 mod link;
+mod noise;
 mod random;
 mod reports;
 mod resting;
@@ -201,7 +202,7 @@ impl Senses {
         let vision = self.vision(knowledge);
         row::write(&vision.tracker, self.reports.cut, &[], state, out);
         if let Some(driven) = &vision.driven {
-            row::write_driven(driven, [robots & !state.absent, !robots & !state.absent], out);
+            row::write_driven(driven, robots, !state.absent, out);
         }
     }
 

@@ -10,8 +10,8 @@ use crate::geometry::motion::Motion;
 use crate::math::Vector;
 use crate::models::sensing::Sensing;
 use crate::senses::detections::Detections;
+use crate::senses::noise::Noise;
 use crate::senses::track::{GATE, unit};
-use crate::senses::tracker::{MIN_DEVIATION, MIN_HEADING_DEVIATION};
 
 /// Number of detections in a row around one place after which a robot rests: .18 s at 66 frames a second.
 const SETTLED: u8 = 12;
@@ -28,28 +28,25 @@ pub(super) struct Place {
     heading: Vector,
     /// Number of detections around it.
     count: u8,
-}
-
-/// Standard deviations of a detection, m and rad.
-#[derive(Debug, Clone, Copy)]
-struct Noise {
-    position: f32,
-    heading: f32,
+    /// Time since the last of them, s.
+    age: f32,
 }
 
 impl Place {
-    const UNSEEN: Self = Self { position: Vector::ZERO, heading: Vector::X, count: 0 };
+    const UNSEEN: Self =
+        Self { position: Vector::ZERO, heading: Vector::X, count: 0, age: f32::INFINITY };
 
     fn take(&mut self, position: Vector, heading: Vector, noise: Noise) {
+        self.age = 0.0;
         let count = f32::from(self.count.max(1));
         let gate = GATE * (1.0 + 1.0 / count);
         let away = (position - self.position).length_squared();
         let turned = self.heading.perp_dot(heading);
-        let is_there = away <= gate * noise.position * noise.position
+        let is_there = away <= gate * noise.robot * noise.robot
             && turned * turned <= gate * noise.heading * noise.heading
             && self.heading.dot(heading) > 0.0;
         if self.count == 0 || !is_there {
-            *self = Self { position, heading, count: 1 };
+            *self = Self { position, heading, count: 1, age: 0.0 };
             return;
         }
         self.count = (self.count + 1).min(LONG);
@@ -70,34 +67,42 @@ impl Place {
 
 /// Places of all robots.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub(super) struct Resting(Vec<Place>);
+pub(super) struct Resting {
+    places: Vec<Place>,
+    /// Time between two frames, s.
+    period: f32,
+}
 
 impl Resting {
     /// Robots of which none was seen.
-    pub(super) fn new(robots: usize) -> Self {
-        Self(vec![Place::UNSEEN; robots])
+    pub(super) fn new(robots: usize, period: f32) -> Self {
+        Self { places: vec![Place::UNSEEN; robots], period }
     }
 
     /// Forgets where the robots of a frame were, as they were moved by hand.
     pub(super) fn begin(&mut self, frame: &Detections) {
         for seen in &frame.robots {
-            self.0[seen.robot] = Place::UNSEEN;
+            self.places[seen.robot] = Place::UNSEEN;
         }
     }
 
-    /// Takes in a frame.
-    pub(super) fn take(&mut self, frame: &Detections, sensing: &Sensing) {
-        let noise = Noise {
-            position: sensing.robot_position_noise.max(MIN_DEVIATION),
-            heading: sensing.heading_noise.max(MIN_HEADING_DEVIATION),
-        };
+    /// Takes in a frame, `elapsed` (s) after the last. Of detections of a robot by several cameras one counts, and of
+    /// copies of a frame none.
+    pub(super) fn take(&mut self, frame: &Detections, elapsed: f32, sensing: &Sensing) {
+        let noise = Noise::of(sensing);
+        for place in &mut self.places {
+            place.age += elapsed;
+        }
         for seen in &frame.robots {
-            self.0[seen.robot].take(seen.motion.position, unit(seen.motion.heading), noise);
+            let place = &mut self.places[seen.robot];
+            if place.age >= self.period / 2.0 {
+                place.take(seen.motion.position, unit(seen.motion.heading), noise);
+            }
         }
     }
 
     /// The place of a robot that rests; `None` if it moves, or there is none.
     pub(super) fn robot(&self, robot: usize) -> Option<Place> {
-        self.0.get(robot).copied().filter(Place::is_settled)
+        self.places.get(robot).copied().filter(Place::is_settled)
     }
 }

@@ -4,7 +4,7 @@ use crate::blocks::{robot, set_bits};
 use crate::columns::{ABSENT_COLUMN, BALL_COLUMNS, ROBOT_COLUMNS};
 use crate::geometry::motion::Motion;
 use crate::math::Vector;
-use crate::senses::driven::Driven;
+use crate::senses::driven::DrivenRobots;
 use crate::senses::reports::OwnMotion;
 use crate::senses::tracker::Tracker;
 use crate::state::State;
@@ -80,9 +80,10 @@ fn write_motion(motion: &Motion, columns: &mut [f32]) {
     ]);
 }
 
-/// Writes what forecasts begin with into a row of what cameras tell: robots whose commands are known (the bits of
-/// `known`) and a ball that one of them holds as drives carry them, and those of the `others` that stand.
-pub(super) fn write_driven(driven: &Driven, [known, others]: [u64; 2], out: &mut [f32]) {
+/// Writes what forecasts begin with into a row of what cameras tell: of the robots that are `present`, one bit each,
+/// those whose commands are `known` and a ball that one of them holds as drives carry them, and others that stand.
+pub(super) fn write_driven(driven: &DrivenRobots, known: u64, present: u64, out: &mut [f32]) {
+    let (known, others) = (known & present, !known & present);
     let (ball, rows) = out.split_at_mut(BALL_COLUMNS.len());
     let resting = driven.resting();
     let stands = set_bits(others).filter_map(|index| Some((index, resting.robot(index)?)));

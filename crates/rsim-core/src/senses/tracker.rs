@@ -7,11 +7,8 @@ use crate::math::{Vec3, Vector};
 use crate::models::sensing::Sensing;
 use crate::senses::detections::{DetectedBall, DetectedRobot, Detections};
 use crate::senses::held::{Beams, Held};
+use crate::senses::noise::Noise;
 use crate::senses::track::{Filter, HeadingTrack, PositionTrack, unit};
-
-/// Standard deviation of a detection that the filters count with at least, m and rad.
-pub(super) const MIN_DEVIATION: f32 = 0.000_3;
-pub(super) const MIN_HEADING_DEVIATION: f32 = 0.002;
 
 /// Accelerations that the filters count with, m/s² and rad/s²: of a ball that slides (3 m/s²), and of robots
 /// that speed up.
@@ -75,13 +72,11 @@ impl Filters {
     /// The filters for the noise of some senses, with a frame each `period` (s), and for robots that accelerate as
     /// given (m/s² and rad/s²) where nobody expects it.
     pub(super) fn of(sensing: &Sensing, period: f32, robot: f32, angular: f32) -> Self {
-        let position =
-            |noise: f32, acceleration| Filter::new(noise.max(MIN_DEVIATION), period, acceleration);
-        let heading = sensing.heading_noise.max(MIN_HEADING_DEVIATION);
+        let noise = Noise::of(sensing);
         Self {
-            ball: position(sensing.ball_position_noise, BALL_ACCELERATION),
-            robot: position(sensing.robot_position_noise, robot),
-            heading: Filter::new(heading, period, angular),
+            ball: Filter::new(noise.ball, period, BALL_ACCELERATION),
+            robot: Filter::new(noise.robot, period, robot),
+            heading: Filter::new(noise.heading, period, angular),
         }
     }
 }

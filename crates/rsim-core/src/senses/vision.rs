@@ -7,7 +7,7 @@ use crate::models::sensing::Sensing;
 use crate::senses::Watched;
 use crate::senses::cameras::Cameras;
 use crate::senses::detections::{CameraFrame, Detections};
-use crate::senses::driven::{Driven, Orders, Tracked};
+use crate::senses::driven::{DrivenRobots, Orders, Tracked};
 use crate::senses::held::Beams;
 use crate::senses::random::Draws;
 use crate::senses::tracker::Tracker;
@@ -22,7 +22,7 @@ pub(super) struct Vision {
     arrived: Vec<Detections>,
     pub(super) tracker: Tracker,
     /// Estimates for forecasts; `None` where nobody forecasts.
-    pub(super) driven: Option<Driven>,
+    pub(super) driven: Option<DrivenRobots>,
 }
 
 impl Vision {
@@ -31,7 +31,7 @@ impl Vision {
         let (robots, period) = (config.n_robots(), cameras.period());
         let tracker = Tracker::new(robots, sensing, period);
         let has_driven = sensing.forecast >= 0.5 && sensing.tracker >= 0.5;
-        let driven = has_driven.then(|| Driven::new(robots, sensing, period));
+        let driven = has_driven.then(|| DrivenRobots::new(robots, sensing, period));
         Self { key, cameras, arrived: Vec::new(), tracker, driven }
     }
 

@@ -8,7 +8,9 @@ use crate::error::SnapshotError;
 use crate::models::config::SimConfig;
 
 /// Beginning of all snapshots. The last character counts the layouts of states that had the same physics.
-const MAGIC: [u8; 8] = *b"rsimsna6";
+const MAGIC: [u8; 8] = *b"rsimsna7";
+/// What the beginnings of all layouts share.
+const ANY_LAYOUT: &[u8] = b"rsimsna";
 const HEADER_SIZE: usize = 28;
 
 /// Identity of the simulator of a snapshot.
@@ -37,7 +39,8 @@ pub(super) fn write(header: &Header, states: &impl Serialize) -> Vec<u8> {
 
 pub(super) fn read<T: DeserializeOwned>(header: &Header, bytes: &[u8]) -> Result<T, SnapshotError> {
     if !bytes.starts_with(&MAGIC) {
-        return Err(SnapshotError::Foreign);
+        let is_other = bytes.starts_with(ANY_LAYOUT);
+        return Err(if is_other { SnapshotError::Layout } else { SnapshotError::Foreign });
     }
     if bytes.len() < HEADER_SIZE {
         return Err(SnapshotError::Damaged("it ends inside its header"));

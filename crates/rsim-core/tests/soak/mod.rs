@@ -24,11 +24,9 @@ fn configs() -> Vec<SimConfig> {
     let mut configs = Vec::new();
     for field in Field::PRESETS {
         let vss = field.name.starts_with("vss");
-        let (ball, models) = if vss {
-            (BallModel::VSS_RSIM, RobotModel::PRESETS[..2].to_vec())
-        } else {
-            (BallModel::SSL_TIGERS, RobotModel::PRESETS[2..].to_vec())
-        };
+        let ball = if vss { BallModel::VSS_RSIM } else { BallModel::SSL_TIGERS };
+        let of_league = |model: &RobotModel| model.name.starts_with("vss") == vss;
+        let models: Vec<_> = RobotModel::PRESETS.into_iter().filter(of_league).collect();
         for n_blue in 0..=field.max_robots {
             let n_yellow = (n_blue * 7 + 3) % (field.max_robots + 1);
             let mut config = scenes::config(field.clone(), ball.clone(), &models[0], 0, 0);
