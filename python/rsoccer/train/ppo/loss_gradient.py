@@ -7,6 +7,7 @@ others. They are added up in the order of the parts, so results do not depend on
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator
 from typing import Final
 
@@ -29,8 +30,8 @@ SHARD: Final = 4096
 class LossGradient:
     """Gradients of the loss by the parameters of a model.
 
-    With ratios r, advantages A, values V and returns R the loss is
-    -mean(min(r A, clip(r) A)) + VALUE_COEF mean((V - R)^2).
+    With ratios r, advantages A, values V, returns R and weights w of the samples, 1 by default, the
+    loss is -mean(w min(r A, clip(r) A)) + VALUE_COEF mean((V - R)^2).
     A test compares the gradients with those of autograd.
     """
 
@@ -62,9 +63,11 @@ class LossGradient:
         """
         advantages = batch.advantages.index_select(0, rows)
         advantages.sub_(advantages.mean()).div_(advantages.std() + 1e-8)
+        if batch.weights is not None:
+            advantages.mul_(batch.weights.index_select(0, rows))
         if critic_only:  # Adam leaves parameters as they are whose gradients were always 0
             advantages.zero_()
-        parts = shards(len(rows), SHARD if rows.device.type == "cpu" else len(rows))
+        parts = _parts(len(rows), rows.device)
         self._reserve(len(parts), rows.device)
         jobs: list[Job] = []
         for index, part in enumerate(parts):
@@ -73,6 +76,24 @@ class LossGradient:
         # In the order of the parts.
         gradient = self._gradients[: len(parts)].sum(0)
         return gradient, self._stats[: len(parts)].sum(0).div_(len(rows))
+
+    @torch.no_grad()
+    def log_probs(self, batch: Batch) -> Tensor:
+        """Return the log densities of the actions under the policy as it is, (size,).
+
+        Args:
+            batch: samples on the device of the model.
+        """
+        found, rows = torch.empty_like(batch.log_probs), torch.arange(len(batch))
+        rows = rows.to(found.device)
+
+        def evaluate(part: slice, thread: int) -> None:
+            mean = self._actors[thread].outputs(batch.observations, rows[part])
+            found[part] = self._model.log_prob(mean, batch.actions[part])
+
+        parts = _parts(len(batch), found.device)
+        self._workers.run([functools.partial(evaluate, part) for part in parts])
+        return found
 
     def _jobs(
         self, index: int, batch: Batch, rows: Tensor, advantages: Tensor, total: int
@@ -137,6 +158,11 @@ class LossGradient:
             [part.view(shape) for part, shape in zip(row.split(sizes), shapes, strict=True)]
             for row in self._gradients
         ]
+
+
+def _parts(rows: int, device: torch.device) -> list[slice]:
+    """Parts of some rows; a GPU computes all of them at once."""
+    return shards(rows, SHARD if device.type == "cpu" else rows)
 
 
 class _Place:
