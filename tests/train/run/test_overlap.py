@@ -263,9 +263,7 @@ def test_an_error_of_the_learner_reaches_the_caller(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("error", [BrokenError, KeyboardInterrupt, ConnectionError])
-def test_an_error_of_a_rollout_ends_the_update(
-    error: type[BaseException], tmp_path: Path
-) -> None:
+def test_an_error_of_a_rollout_ends_the_update(error: type[BaseException], tmp_path: Path) -> None:
     trainer = Trainer(overlapped(tmp_path, checkpoint_interval=1e-9))
     collect, learn, ended = trainer.collector.collect, trainer.ppo.learn, []
 
@@ -283,7 +281,7 @@ def test_an_error_of_a_rollout_ends_the_update(
         return learn(batch, rate, check_stop, **named)
 
     trainer.collector.collect = play  # type: ignore[method-assign]
-    trainer.ppo.learn = learn_on  # type: ignore[method-assign]
+    trainer.ppo.learn = learn_on  # type: ignore[assignment,method-assign]
     with pytest.raises(error):
         Loop(trainer, {}).run(StopSignal(), 0)
     assert ended == [0, 1] and not learners()

@@ -7,8 +7,8 @@ the same at any speed of both:
   update k. Samples are therefore one update old, those of rollout 0 and of the first rollout of
   whole teams excepted: nothing is learned while these are played.
 - no rollout is played during the last update, nor during the last one with one learner per match.
-- the learner's thread has a copy of the model, an optimizer, a generator and buffers of its own. All
-  else is done on the thread of the run, before the learner begins or after it has ended.
+- the learner's thread has a copy of the model, an optimizer, a generator and buffers of its own.
+  All else is done on the thread of the run, before the learner begins or after it has ended.
 """
 
 from __future__ import annotations
