@@ -147,8 +147,8 @@ class PPO:
         Ratios are then those to the policy before the update, as without overlap, and the ratio of
         that one to the policy that played is a weight: the decoupled objective of Hilton et al.,
         "Batch size-invariance for policy optimization" (2022). With ratios to the policy that
-        played, the divergence of two updates counts as that of one, so passes stop after the first:
-        `SSLGoToBall-v0` learned at half the speed.
+        played, the divergence of two updates counts as that of one, so passes stop early: a run of
+        `VSS-v0` had 1.5 of them in place of 2.7 on average, and learned less.
         """
         log_probs = self._loss_gradient.log_probs(batch)
         weights = (log_probs - batch.log_probs).exp_().clamp_(max=MAX_WEIGHT)

@@ -87,6 +87,9 @@ def play(trainer: Trainer, check_stop: Callable[[], None]) -> Played:
     Args:
         trainer: the run.
         check_stop: called before each decision; an exception that it raises ends the rollout.
+
+    Returns:
+        The rollout, to learn from later.
     """
     batch = trainer.play_rollout(check_stop)
     collector = trainer.collector
