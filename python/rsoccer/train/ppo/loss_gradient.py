@@ -67,7 +67,7 @@ class LossGradient:
             advantages.mul_(batch.weights.index_select(0, rows))
         if critic_only:  # Adam leaves parameters as they are whose gradients were always 0
             advantages.zero_()
-        parts = _parts(len(rows), rows.device)
+        parts = shards(len(rows), SHARD if rows.device.type == "cpu" else len(rows))
         self._reserve(len(parts), rows.device)
         jobs: list[Job] = []
         for index, part in enumerate(parts):
@@ -91,7 +91,8 @@ class LossGradient:
             mean = self._actors[thread].outputs(batch.observations, rows[part])
             found[part] = self._model.log_prob(mean, batch.actions[part])
 
-        parts = _parts(len(batch), found.device)
+        # On a GPU, too: buffers for the whole batch would be much larger than for a minibatch.
+        parts = shards(len(batch), SHARD)
         self._workers.run([functools.partial(evaluate, part) for part in parts])
         return found
 
@@ -158,11 +159,6 @@ class LossGradient:
             [part.view(shape) for part, shape in zip(row.split(sizes), shapes, strict=True)]
             for row in self._gradients
         ]
-
-
-def _parts(rows: int, device: torch.device) -> list[slice]:
-    """Parts of some rows; a GPU computes all of them at once."""
-    return shards(rows, SHARD if device.type == "cpu" else rows)
 
 
 class _Place:
