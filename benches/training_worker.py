@@ -3,12 +3,15 @@
 It is started by its path, so that it measures whatever package is first on the path of modules.
 """
 
+import argparse
 import itertools
 import math
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 from rsoccer.train import Args, clock
 from rsoccer.train.ppo import update
@@ -18,34 +21,78 @@ PASSES = 3
 """Passes over each batch. In whole runs the KL divergence ends them after 2 to 3 on average."""
 
 
-def main(task: str, threads: int, worlds: int) -> None:
+def main(arguments: list[str] | None = None) -> None:
     """Play and learn once for each line, and print the times.
 
-    A line of the output has seconds of the simulator, of the rollout, of learning, and the time of
-    the processor for all, each per decision. The first three are made of the least times of single
-    decisions and minibatches, which other programs disturb least; on one thread they are times of
-    the processor, too.
-
     Args:
-        task: name of the task, with its recommended settings; whole teams learn.
-        threads: threads of the run.
-        worlds: matches at once; 0 for the recommended number.
+        arguments: command line without the program name; default: that of the process. The task
+            has its recommended settings; whole teams learn.
     """
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("task", help="name of the task")
+    parser.add_argument("threads", type=int, help="threads of the run")
+    parser.add_argument("worlds", type=int, help="matches at once; 0 for the recommended number")
+    parser.add_argument("--device", default="cpu", help="device of the updates")
+    parser.add_argument("--overlap", action="store_true", help="play during the updates")
+    parser.add_argument("--whole", action="store_true", help="measure whole updates")
+    options = parser.parse_args(arguments)
+    # Packages from before the option are measured without it.
+    overlap = {"overlap": True} if options.overlap else {}
+    ppo: dict[str, Any] = {"n_epochs": PASSES, **overlap}
+    settings = {"rollout": {"worlds": options.worlds}} if options.worlds else {}
+    vars(update)["TARGET_KL"] = math.inf  # all passes
     # Other programs make the processor wait, but change its own time little.
-    timer = time.process_time if threads == 1 else time.perf_counter
+    by_processor = options.threads == 1 and not options.whole
+    timer = time.process_time if by_processor else time.perf_counter
     vars(clock)["time"] = SimpleNamespace(perf_counter=timer)
-    settings = {"rollout": {"worlds": worlds}} if worlds else {}
     trainer = Trainer(
         Args.for_task(
-            task,
+            options.task,
             out=Path("nowhere"),  # a trainer alone writes no files
-            threads=threads,
-            ppo={"n_epochs": PASSES},
+            threads=options.threads,
+            device=options.device,
+            ppo=ppo,
             opponents={"solo_fraction": 0.0},
             **settings,
         )
     )
-    vars(update)["TARGET_KL"] = math.inf  # all passes
+    if options.whole:
+        _measure_whole(trainer)
+    else:
+        _measure_least(trainer, timer)
+
+
+def _measure_whole(trainer: Trainer) -> None:
+    """Print seconds of the rollout, of learning and waiting, of the update, and its samples.
+
+    Each line is of one update, by wall time. Learning includes values and reflections of samples.
+    """
+
+    def play_and_learn() -> None:
+        if trainer.args.to_json().get("ppo.overlap"):
+            from rsoccer.train.run import overlap
+
+            overlap.update(trainer, lambda: None)
+        else:
+            trainer.update(trainer.collect_rollout(lambda: None), lambda: None)
+
+    for _ in sys.stdin:
+        trainer.clock.take()
+        before, started = trainer.samples, time.perf_counter()
+        play_and_learn()
+        seconds = time.perf_counter() - started
+        parts = trainer.clock.seconds
+        rollout = parts["acting"] + parts["matches"]
+        _print(rollout, parts["learning"], seconds, trainer.samples - before)
+
+
+def _measure_least(trainer: Trainer, timer: Callable[[], float]) -> None:
+    """Print seconds of the simulator, of the rollout, of learning, and processor time of all.
+
+    They are per decision. The first three are made of the least times of single decisions and
+    minibatches, which other programs disturb least; on one thread they are times of the
+    processor, too.
+    """
     per_pass = trainer.args.ppo.n_minibatches
     stamps: list[tuple[float, float]] = []
 
@@ -79,9 +126,14 @@ def main(task: str, threads: int, worlds: int) -> None:
             processor,
         )
         samples = trainer.samples - before
-        sys.stdout.write(" ".join(str(seconds / samples) for seconds in times) + "\n")
-        sys.stdout.flush()
+        _print(*(seconds / samples for seconds in times))
+
+
+def _print(*numbers: float) -> None:
+    """Print a line of numbers at once."""
+    sys.stdout.write(" ".join(map(str, numbers)) + "\n")
+    sys.stdout.flush()
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], int(sys.argv[2]), int(sys.argv[3]))
+    main()

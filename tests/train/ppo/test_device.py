@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 import torch
@@ -15,6 +16,7 @@ from rsoccer.train.ppo.device import find_device
 from rsoccer.train.ppo.update import PPO
 from rsoccer.train.run import checkpoint
 from rsoccer.train.run.trainer import Trainer
+from tests.train.runs import digest, run_until
 from tests.train.short_task import tiny
 
 CPU, CUDA = torch.device("cpu"), torch.device("cuda")
@@ -71,15 +73,18 @@ def fake_to(model: ActorCritic, device: torch.device) -> ActorCritic:
     torch.__version__.startswith("2.6."),
     reason="PyTorch 2.6 aborts the process when fake tensors of a GPU are asked for their device",
 )
+@pytest.mark.parametrize("overlap", [False, True])
 @pytest.mark.parametrize("mixed", [False, True])
-def test_updates_do_not_mix_devices(mixed: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_updates_do_not_mix_devices(
+    mixed: bool, overlap: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(ActorCritic, "to", fake_to)
     generator = torch.Generator().manual_seed(0)
     model, copied = (ActorCritic(5, 2, (8,), 0.6, generator) for _ in range(2))
     with FakeTensorMode():
         fake_to(model, CPU)
         monkeypatch.setattr("rsoccer.train.ppo.update.copy.deepcopy", lambda _: copied)
-        trainer = PPO(PpoSettings(n_minibatches=2), model, generator, CUDA)
+        trainer = PPO(PpoSettings(n_minibatches=2, overlap=overlap), model, generator, CUDA)
         batch = Batch(*(torch.empty(shape) for shape in ((6, 5), (6, 2), (6,), (6,), (6,))))
         if mixed:
             monkeypatch.setattr(Batch, "to", lambda self, _: self)
@@ -107,10 +112,11 @@ def test_all_tensors_of_an_update_are_on_its_device(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(not torch.cuda.is_available(), reason="needs a GPU")
-def test_a_gpu_learns_what_the_cpu_learns(tmp_path: Path) -> None:
+@pytest.mark.parametrize("changes", [{}, {"robot_units": 4}, {"overlap": True}])
+def test_a_gpu_learns_what_the_cpu_learns(changes: dict[str, Any], tmp_path: Path) -> None:
     models = []
     for device in ("cpu", "cuda"):
-        trainer = Trainer(tiny(tmp_path, device=device))
+        trainer = Trainer(tiny(tmp_path, device=device, **changes))
         assert trainer.ppo.device.type == device
         batch = trainer.collect_rollout(lambda: None)
         trainer.update(batch, lambda: None)
@@ -128,3 +134,16 @@ def test_a_checkpoint_resumes_on_any_device(tmp_path: Path) -> None:
     train(tiny(tmp_path, samples=288, resume=True, device="cpu"))
     train(tiny(tmp_path, samples=432, resume=True, device="cuda"))
     assert checkpoint.load(tmp_path / checkpoint.FILE_NAME).info["updates"] == 3
+
+
+@pytest.mark.skipif(not torch.cuda.is_available(), reason="needs a GPU")
+@pytest.mark.parametrize("changes", [{}, {"overlap": True}, {"overlap": True, "robot_units": 4}])
+def test_a_resumed_run_on_a_gpu_equals_the_uninterrupted_one(
+    changes: dict[str, Any], tmp_path: Path
+) -> None:
+    one, other = tmp_path / "one", tmp_path / "other"
+    train(tiny(one, device="cuda", **changes))
+    other.mkdir()
+    assert 0 < run_until(tiny(other, device="cuda", **changes), 40) < 6
+    train(tiny(other, device="cuda", threads=2, resume=True, **changes))
+    assert digest(other) == digest(one)

@@ -18,21 +18,25 @@ def textbook_loss(model: ActorCritic, minibatch: Batch) -> torch.Tensor:
     log_probs = model.log_prob(model.actor(minibatch.observations), minibatch.actions)
     ratio = (log_probs - minibatch.log_probs).exp()
     clipped = ratio.clamp(1 - loss_gradient.CLIP_RANGE, 1 + loss_gradient.CLIP_RANGE)
-    policy_loss = -torch.minimum(ratio * advantages, clipped * advantages).mean()
+    gains = torch.minimum(ratio * advantages, clipped * advantages)
+    weights = torch.ones(()) if minibatch.weights is None else minibatch.weights
+    policy_loss = -(weights * gains).mean()
     value_loss = (model.value(minibatch.critic_inputs) - minibatch.returns).square().mean()
     return policy_loss + loss_gradient.VALUE_COEF * value_loss
 
 
+@pytest.mark.parametrize("weighted", [False, True])
 @pytest.mark.parametrize("state_size", [0, 3])
 @pytest.mark.parametrize("clip_range", [0.001, 0.2, 10.0])
 def test_gradients_equal_those_of_autograd(
-    clip_range: float, state_size: int, monkeypatch: pytest.MonkeyPatch
+    clip_range: float, state_size: int, weighted: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(loss_gradient, "CLIP_RANGE", clip_range)
     monkeypatch.setattr(loss_gradient, "VALUE_COEF", 0.7)
     monkeypatch.setattr(loss_gradient, "SHARD", 20)  # several parts
     ppo, batch = new_ppo(state_size)
     ppo.update(batch, 0.05, lambda: None)  # so that ratios differ from 1
+    batch.weights = torch.rand(SIZE) if weighted else None
     rows = torch.randperm(SIZE)[:50]
     model = ppo._model
     gradient, stats = LossGradient(model, Workers(2))(batch, rows)
@@ -52,7 +56,8 @@ def test_threads_change_no_bit(monkeypatch: pytest.MonkeyPatch) -> None:
         compute = LossGradient(ppo._model, Workers(threads))
         for count in (64, 9, 50):  # buffers grow and are used again
             gradient, stats = compute(batch, torch.arange(count))
-        results.append(gradient.numpy().tobytes() + stats.numpy().tobytes())
+        found = (gradient, stats, compute.log_probs(batch))
+        results.append(b"".join(part.numpy().tobytes() for part in found))
     assert len(set(results)) == 1
 
 
@@ -65,3 +70,15 @@ def test_the_critic_alone_leaves_the_policy_without_a_gradient() -> None:
     alone, _ = compute(batch, torch.arange(SIZE), critic_only=True)
     assert not alone[:size].any()
     assert torch.equal(alone[size:], gradient[size:])
+
+
+def test_log_densities_are_those_of_the_policy_as_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(loss_gradient, "SHARD", 20)  # several parts
+    ppo, batch = new_ppo()
+    compute = LossGradient(ppo._model, Workers(2))
+    torch.testing.assert_close(compute.log_probs(batch), batch.log_probs)
+    ppo.update(batch, 0.05, lambda: None)
+    with torch.no_grad():
+        expected = ppo._model.log_prob(ppo._model.actor(batch.observations), batch.actions)
+    torch.testing.assert_close(compute.log_probs(batch), expected)
+    assert (expected - batch.log_probs).abs().max() > 0.1

@@ -100,3 +100,29 @@ def test_a_minibatch_has_the_selected_samples() -> None:
     parts = list(batch.chunk(3))
     assert [len(part) for part in parts] == [22, 22, 20]
     assert torch.equal(torch.cat([part.actions for part in parts]), batch.actions)
+
+
+def test_samples_of_an_older_policy_count_by_their_probability_now(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Ratios and the divergence are those to the policy before the update."""
+    seen: list[Batch] = []
+    ppo, batch = new_ppo(n_epochs=2, overlap=True)
+    ppo.update(batch, 0.02, lambda: None)  # after that the batch is of an older policy
+    with torch.no_grad():
+        present = ppo._model.log_prob(ppo._model.actor(batch.observations), batch.actions)
+    ratio = (present - batch.log_probs).exp()
+    assert ratio.min() < 0.8 and ratio.max() > update.MAX_WEIGHT
+    compute = ppo._loss_gradient
+
+    def record(batch: Batch, *rest: Any, **named: Any) -> tuple[torch.Tensor, torch.Tensor]:  # noqa: ANN401
+        seen.append(batch)
+        return compute(batch, *rest, **named)
+
+    monkeypatch.setattr(ppo, "_loss_gradient", record)
+    monkeypatch.setattr(record, "log_probs", compute.log_probs, raising=False)
+    stats = ppo.update(batch, 1e-4, lambda: None)
+    torch.testing.assert_close(seen[0].log_probs, present)
+    assert seen[0].weights is not None
+    torch.testing.assert_close(seen[0].weights, ratio.clamp(max=update.MAX_WEIGHT))
+    assert stats["approx_kl"] < 1e-3 < float((ratio - 1 - ratio.log()).mean())

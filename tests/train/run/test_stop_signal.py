@@ -21,7 +21,8 @@ from pathlib import Path
 from rsoccer.train import train
 from tests.train.short_task import register_all, tiny
 register_all()
-train(tiny(Path(sys.argv[1]), samples=10**9, checkpoint_interval=999.0))
+overlap = sys.argv[2] == "True"
+train(tiny(Path(sys.argv[1]), samples=10**9, checkpoint_interval=999.0, overlap=overlap))
 """
 
 
@@ -36,10 +37,16 @@ def lines(path: Path) -> int:
     return path.read_bytes().count(b"\n")
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_run_that_a_signal_ended_can_be_resumed(number: signal.Signals, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("number", "overlap"),
+    [(signal.SIGINT, False), (signal.SIGTERM, False), (signal.SIGINT, True)],
+)
+def test_a_run_that_a_signal_ended_can_be_resumed(
+    number: signal.Signals, overlap: bool, tmp_path: Path
+) -> None:
+    arguments = [str(tmp_path), str(overlap)]
     process = subprocess.Popen(
-        [sys.executable, "-c", SCRIPT, str(tmp_path)], stderr=subprocess.PIPE, text=True
+        [sys.executable, "-c", SCRIPT, *arguments], stderr=subprocess.PIPE, text=True
     )
     log = tmp_path / "progress.csv"
     # The second row comes after the first update is captured.
@@ -52,7 +59,7 @@ def test_a_run_that_a_signal_ended_can_be_resumed(number: signal.Signals, tmp_pa
     saved = checkpoint.load(tmp_path / checkpoint.FILE_NAME)
     assert saved.info["samples"] > 0
     target = saved.info["samples"] + 144
-    train(tiny(tmp_path, samples=target, resume=True))
+    train(tiny(tmp_path, samples=target, resume=True, overlap=overlap))
     resumed = checkpoint.load(tmp_path / checkpoint.FILE_NAME)
     assert resumed.info["samples"] == target
 

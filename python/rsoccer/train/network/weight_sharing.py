@@ -113,7 +113,11 @@ class WeightSharing:
         Args:
             gradient: (size,) gradients of the parameters.
         """
-        sums = torch.zeros_like(gradient).index_add_(0, self._labels, gradient)
+        sums = torch.zeros_like(gradient)
+        if gradient.device.type == "cpu":
+            sums.index_add_(0, self._labels, gradient)
+        else:  # a GPU adds in a fixed order only here, where it sorts the labels first
+            sums.index_put_((self._labels,), gradient, accumulate=True)
         return sums.div_(self._counts)[self._labels]
 
     def move(self, device: torch.device) -> None:

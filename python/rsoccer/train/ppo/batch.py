@@ -25,6 +25,8 @@ class Batch:
     """(size,) targets of the value network: advantages + values."""
     central_inputs: Tensor | None = None
     """(size, s + o) inputs of a centralized critic; None if the critic reads the observations."""
+    weights: Tensor | None = None
+    """(size,) weights of the samples in the loss of the policy; None for equal ones."""
 
     @property
     def critic_inputs(self) -> Tensor:

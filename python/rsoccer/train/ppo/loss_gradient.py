@@ -7,6 +7,7 @@ others. They are added up in the order of the parts, so results do not depend on
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator
 from typing import Final
 
@@ -29,8 +30,8 @@ SHARD: Final = 4096
 class LossGradient:
     """Gradients of the loss by the parameters of a model.
 
-    With ratios r, advantages A, values V and returns R the loss is
-    -mean(min(r A, clip(r) A)) + VALUE_COEF mean((V - R)^2).
+    With ratios r, advantages A, values V, returns R and weights w of the samples, 1 by default, the
+    loss is -mean(w min(r A, clip(r) A)) + VALUE_COEF mean((V - R)^2).
     A test compares the gradients with those of autograd.
     """
 
@@ -62,6 +63,8 @@ class LossGradient:
         """
         advantages = batch.advantages.index_select(0, rows)
         advantages.sub_(advantages.mean()).div_(advantages.std() + 1e-8)
+        if batch.weights is not None:
+            advantages.mul_(batch.weights.index_select(0, rows))
         if critic_only:  # Adam leaves parameters as they are whose gradients were always 0
             advantages.zero_()
         parts = shards(len(rows), SHARD if rows.device.type == "cpu" else len(rows))
@@ -73,6 +76,25 @@ class LossGradient:
         # In the order of the parts.
         gradient = self._gradients[: len(parts)].sum(0)
         return gradient, self._stats[: len(parts)].sum(0).div_(len(rows))
+
+    @torch.no_grad()
+    def log_probs(self, batch: Batch) -> Tensor:
+        """Return the log densities of the actions under the policy as it is, (size,).
+
+        Args:
+            batch: samples on the device of the model.
+        """
+        found, rows = torch.empty_like(batch.log_probs), torch.arange(len(batch))
+        rows = rows.to(found.device)
+
+        def evaluate(part: slice, thread: int) -> None:
+            mean = self._actors[thread].outputs(batch.observations, rows[part])
+            found[part] = self._model.log_prob(mean, batch.actions[part])
+
+        # On a GPU, too: buffers for the whole batch would be much larger than for a minibatch.
+        parts = shards(len(batch), SHARD)
+        self._workers.run([functools.partial(evaluate, part) for part in parts])
+        return found
 
     def _jobs(
         self, index: int, batch: Batch, rows: Tensor, advantages: Tensor, total: int

@@ -41,6 +41,8 @@ class PpoSettings:
     """count the value after time limits; off in ablations"""
     critic_warmup: Natural = 0
     """first updates, in which the value network alone learns"""
+    overlap: bool = False
+    """play the next rollout while a thread learns from the last one; for a GPU"""
 
     def __post_init__(self) -> None:
         """Convert and check the values."""

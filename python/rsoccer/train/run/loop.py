@@ -6,12 +6,13 @@ import dataclasses
 import time
 
 from rsoccer.train.rollout.episode_stats import Row
-from rsoccer.train.run import checkpoint
+from rsoccer.train.run import checkpoint, overlap
 from rsoccer.train.run.callback import Callback, Update
 from rsoccer.train.run.checkpoint import Checkpoint
 from rsoccer.train.run.folder import POLICY_FILE
 from rsoccer.train.run.ladder import Ladder
 from rsoccer.train.run.log import Logger
+from rsoccer.train.run.played import Played
 from rsoccer.train.run.state import capture, restore
 from rsoccer.train.run.stop_signal import Stopped, StopSignal
 from rsoccer.train.run.trainer import Trainer
@@ -116,20 +117,26 @@ class Loop:
 
         Whole teams follow after the first part of the samples.
         """
-        trainer, args = self.trainer, self.trainer.args
-        batch = trainer.collect_rollout(stop.check)
-        trainer.update(batch, stop.check)
-        row = self._row(len(batch))
+        trainer = self.trainer
+        if trainer.args.ppo.overlap:
+            played = overlap.update(trainer, stop.check)
+        else:
+            batch = trainer.collect_rollout(stop.check)
+            trainer.update(batch, stop.check)
+            collector = trainer.collector
+            episodes, rewards = collector.episode_stats.take(), collector.reward_means
+            played = Played(batch, len(batch), episodes, rewards)
+        row = self._row(played)
         logger.write(trainer.samples, row)
-        if trainer.is_solo and trainer.samples >= args.opponents.solo_fraction * args.samples:
+        if trainer.ends_solo:
             trainer.start_team()
         return row
 
     def _capture(self, logger: Logger) -> Checkpoint:
         return capture(self.trainer, self._policy_files, logger.size)
 
-    def _row(self, batch_size: int) -> Row:
-        """Columns of the log for the last update, which learned from `batch_size` samples."""
+    def _row(self, played: Played) -> Row:
+        """Columns of the log for the last update, which learned from a rollout."""
         trainer = self.trainer
         strength = self.ladder.skip()
         if self.ladder.is_due(trainer.updates, last=trainer.samples >= trainer.args.samples):
@@ -137,17 +144,19 @@ class Loop:
                 strength = self.ladder.measure(trainer.network())
         seconds, shares = trainer.clock.take()
         trainer.elapsed += seconds
-        # The columns are the same in all updates: solo learners meet no pool.
-        shares = {"ladder": 0.0, "opponents": 0.0, "physics": 0.0, **shares}
+        # The columns are the same in all updates: solo learners meet no pool, and nothing is
+        # played during the last update of overlapping ones.
+        parts = ("acting", "ladder", "matches", "opponents", "physics")
+        shares = {**dict.fromkeys(parts, 0.0), **shares}
         shares["tasks"] = shares.pop("matches") - shares["physics"] - shares["opponents"]
         return {
             "update": trainer.updates,
             "samples": trainer.samples,
             "seconds": trainer.elapsed,
-            "samples_per_second": batch_size / seconds,
-            **trainer.collector.episode_stats.take(),
+            "samples_per_second": played.samples / seconds,
+            **played.episodes,
             **strength,
-            **trainer.collector.reward_means,
+            **played.rewards,
             **trainer.update_stats,
             **{f"time_{part}": share for part, share in sorted(shares.items())},
         }

@@ -9,6 +9,7 @@ import torch
 from rsoccer.arrays import Array
 from rsoccer.train.prefixes import add_prefix, select_prefix
 from rsoccer.train.run.checkpoint import Checkpoint
+from rsoccer.train.run.played import Played
 from rsoccer.train.run.trainer import Trainer
 
 
@@ -31,6 +32,9 @@ def capture(trainer: Trainer, policy_files: Mapping[str, str], log_size: int) ->
         run["observations"] = collector.observations.copy()
         if collector.states is not None:
             run["states"] = collector.states.copy()
+    overlap, pending = trainer.args.ppo.overlap, trainer.pending
+    if overlap:
+        run["minibatch_generator"] = trainer.minibatch_generator.get_state().numpy().copy()
     central = {} if collector.central is None else collector.central.rms.state_dict()
     model = {name: part.numpy().copy() for name, part in trainer.model.state_dict().items()}
     arrays = {
@@ -42,6 +46,7 @@ def capture(trainer: Trainer, policy_files: Mapping[str, str], log_size: int) ->
         **add_prefix("return_rms", collector.return_rms.state_dict()),
         **add_prefix("worlds", worlds),
         **add_prefix("pool", {} if trainer.pool is None else trainer.pool.state_dict()),
+        **add_prefix("pending", {} if pending is None else pending.arrays()),
     }
     info = {
         "args": trainer.args.to_json(),
@@ -53,6 +58,8 @@ def capture(trainer: Trainer, policy_files: Mapping[str, str], log_size: int) ->
         "is_solo": trainer.is_solo,
         "log_size": log_size,
     }
+    if overlap:
+        info["pending"] = None if pending is None else pending.info()
     return Checkpoint(arrays, info)
 
 
@@ -97,6 +104,12 @@ def _restore(trainer: Trainer, saved: Checkpoint) -> None:
     else:
         collector.begin_again()
     trainer.generator.set_state(torch.tensor(run["generator"]))
+    if trainer.args.ppo.overlap:
+        trainer.minibatch_generator.set_state(torch.tensor(run["minibatch_generator"]))
+        pending = info["pending"]
+        if pending is not None:
+            pending = Played.restored(select_prefix("pending", arrays), pending)
+        trainer.pending = pending
     trainer.samples, trainer.updates = info["samples"], info["updates"]
     trainer.elapsed = info["elapsed"]
     trainer.learning_rate.value = info["learning_rate"]

@@ -34,6 +34,7 @@ from rsoccer.train.ppo.update import PPO
 from rsoccer.train.rollout.central_inputs import CentralInputs
 from rsoccer.train.rollout.collector import RolloutCollector
 from rsoccer.train.rollout.episode_stats import Row
+from rsoccer.train.run.played import Played
 from rsoccer.train.workers import Workers
 
 
@@ -46,6 +47,8 @@ class Trainer:
         stack: what the networks observe of it.
         clock: measures the time of each part.
         generator: draws weights, actions, truncations and minibatches.
+        minibatch_generator: draws the minibatches; `generator` itself unless rollouts and updates
+            overlap, where the order in which two threads draw would depend on their speed.
         curriculum: creates the matches.
         pool: opponents of the learners if both teams learn, else None.
         is_solo: True while one robot per match learns.
@@ -55,6 +58,8 @@ class Trainer:
         ppo: updates the model.
         learning_rate: step size of the updates.
         update_stats: columns of the log from the last update of the model.
+        pending: rollout that the next update learns from, played during the last one; None if
+            that has still to be played.
         samples: decisions that were learned from.
         updates: number of updates.
         elapsed: seconds of training, summed over resumed runs.
@@ -71,14 +76,16 @@ class Trainer:
                 none.
         """
         torch.set_num_threads(args.torch_threads)
-        words = np.random.SeedSequence(args.seed).generate_state(3, np.uint64) >> np.uint64(1)
-        torch_seed, first_seed, self._team_seed = words.tolist()
+        words = np.random.SeedSequence(args.seed).generate_state(4, np.uint64) >> np.uint64(1)
+        torch_seed, first_seed, self._team_seed, minibatch_seed = words.tolist()
         self.args, self.clock = args, Clock()
         self.task = args.make_task()
         self.stack = ObservationStack.of(self.task, args.history)
         if args.ppo.mirror_augmentation:
             check_symmetric(self.task)
-        self.generator = torch.Generator().manual_seed(torch_seed)
+        self.generator = self.minibatch_generator = torch.Generator().manual_seed(torch_seed)
+        if args.ppo.overlap:
+            self.minibatch_generator = torch.Generator().manual_seed(minibatch_seed)
         self.curriculum = Curriculum(
             args.opponents,
             self.task,
@@ -120,12 +127,14 @@ class Trainer:
                 sharing.tie(self.model)
             self.collector.obs_rms.load_state_dict(initial_policy.statistics(policy, self.stack))
         self.collector.enter(matches, None if self.is_solo else self.curriculum.opponents)
+        workers = self.evaluator.workers
+        if args.ppo.overlap:  # these play meanwhile
+            workers = Workers(args.threads, args.torch_threads)
         device = find_device(args.device)
-        self.ppo = PPO(
-            args.ppo, self.model, self.generator, device, sharing, self.evaluator.workers
-        )
+        self.ppo = PPO(args.ppo, self.model, self.minibatch_generator, device, sharing, workers)
         self.learning_rate = LearningRate(args.ppo)
         self.update_stats: Row = {}
+        self.pending: Played | None = None
         self.samples, self.updates, self.elapsed = 0, 0, 0.0
         self.show_policy()
 
@@ -146,6 +155,12 @@ class Trainer:
         self.collector.enter(matches, self.curriculum.opponents)
 
     @property
+    def ends_solo(self) -> bool:
+        """True if whole teams are to play from the next rollout on, see `start_team`."""
+        args = self.args
+        return self.is_solo and self.samples >= args.opponents.solo_fraction * args.samples
+
+    @property
     def progress(self) -> float:
         """Share of the run's samples so far, 0 to 1."""
         return min(self.samples / self.args.samples, 1.0)
@@ -159,13 +174,35 @@ class Trainer:
         Returns:
             Batch of horizon x worlds x agents samples.
         """
+        batch = self.play_rollout(check_stop)
+        self.samples += len(batch)
+        return batch
+
+    def play_rollout(self, check_stop: Callable[[], None]) -> Batch:
+        """Play a rollout as `collect_rollout` does, without counting its samples.
+
+        Args:
+            check_stop: called before each decision; an exception that it raises ends the rollout.
+
+        Returns:
+            Batch of horizon x worlds x agents samples.
+        """
         args = self.args
         gamma = discount_per_decision(args.ppo, args.rollout.action_repeat, self.progress)
         rollout = self.collector.collect(gamma, check_stop)
         with self.clock.measure("learning"):
-            batch = make_batch(rollout, self.evaluator, args.ppo, gamma)
-        self.samples += len(batch)
-        return batch
+            return make_batch(rollout, self.evaluator, args.ppo, gamma)
+
+    def reflected(self, batch: Batch) -> Batch:
+        """Return a batch with reflected samples, too, if the settings ask for them.
+
+        Args:
+            batch: samples that the model has played as it is.
+        """
+        if not self.args.ppo.mirror_augmentation:
+            return batch
+        with self.clock.measure("learning"):
+            return with_reflections(batch, self.task, self.stack, self.evaluator)
 
     def update(self, batch: Batch, check_stop: Callable[[], None]) -> None:
         """Train the model on a batch, and put its new policy into the pool.
@@ -178,16 +215,28 @@ class Trainer:
             ValueError: the networks have NaN or infinite weights now.
         """
         learning_rate = self.learning_rate.start_update(self.progress)
+        batch = self.reflected(batch)
         with self.clock.measure("learning"):
-            if self.args.ppo.mirror_augmentation:
-                batch = with_reflections(batch, self.task, self.stack, self.evaluator)
-            warmup = self.updates < self.args.ppo.critic_warmup
-            self.update_stats = self.ppo.update(
-                batch, learning_rate, check_stop, critic_only=warmup
-            )
+            stats = self.ppo.update(batch, learning_rate, check_stop, critic_only=self.is_warmup)
+        self.end_update(stats)
+
+    @property
+    def is_warmup(self) -> bool:
+        """True if the value network alone learns in the next update."""
+        return self.updates < self.args.ppo.critic_warmup
+
+    def end_update(self, stats: Row) -> None:
+        """Count an update, follow its schedules, and put the new policy into the pool.
+
+        Args:
+            stats: columns of the log from `PPO`, whose parameters the model has now.
+
+        Raises:
+            ValueError: the networks have NaN or infinite weights now.
+        """
         self._check_finite()
-        stats = self.update_stats
-        if not warmup:  # a policy that stays as it is says nothing about the rate
+        self.update_stats = stats
+        if not self.is_warmup:  # a policy that stays as it is says nothing about the rate
             self.learning_rate.end_update(stats["n_epochs"], stats["approx_kl"])
         self.updates += 1
         first, last = self.args.network.action_std, self.args.network.final_action_std
