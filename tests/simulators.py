@@ -38,20 +38,39 @@ class Elsewhere:
 
     Attributes:
         left: steps until it answers no more, of all of them.
+        error: what it raises then.
+        starts: rows of the first matches that were put, of all of them.
     """
 
     left: ClassVar[float] = math.inf
+    error: ClassVar[Exception] = ConnectionError("nobody answers")
+    starts: ClassVar[list[bytes]] = []
 
     def __init__(self, config: SimConfig, worlds: int, threads: Threads) -> None:
         self._own = Simulator(config, worlds, threads)
-        self.place, self.restart = self._own.place, self._own.restart
-        self.reposition_balls = self._own.reposition_balls
+        self.restart, self.reposition_balls = self._own.restart, self._own.reposition_balls
+
+    def place(self, worlds: Mask, rows: Floats, out: Floats) -> None:
+        if Elsewhere.left < 0:
+            raise Elsewhere.error
+        Elsewhere.starts.append(rows[0].tobytes())
+        self._own.place(worlds, rows, out)
 
     def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> None:
         Elsewhere.left -= 1
         if Elsewhere.left < 0:
-            raise ConnectionError("nobody answers")
+            raise Elsewhere.error
         self._own.step(commands, out, active)
+
+
+class OneMatch(Elsewhere):
+    """One that plays one match at a time."""
+
+    plays_one_match = True
+
+    def __init__(self, config: SimConfig, worlds: int, threads: Threads) -> None:
+        assert worlds == 1, worlds
+        super().__init__(config, worlds, threads)
 
 
 class Blind:

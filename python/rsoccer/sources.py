@@ -41,6 +41,26 @@ SensingSource: TypeAlias = Sensing | SensorModel | str
 _Closer = TypeVar("_Closer", bound=Closer)
 
 
+def plays_one_match(source: SimulatorSource | None) -> bool:
+    """Return whether a simulator steps one match at a time, as those on a network do.
+
+    Args:
+        source: the factory or the simulator; None for `rsoccer.Simulator`.
+
+    Raises:
+        ImportError: a text whose module or name does not exist.
+        ValueError: a text of another form.
+    """
+    return bool(getattr(_found(source), "plays_one_match", False))
+
+
+def _found(source: SimulatorSource | None) -> object:
+    """A source, with a text replaced by what it names."""
+    if isinstance(source, str):
+        return plugins.find("simulator", NETWORK_SIMULATORS.get(source, source))
+    return source
+
+
 def make_simulator(
     source: SimulatorSource | None, config: SimConfig, worlds: int, threads: Threads
 ) -> Stepper:
@@ -59,9 +79,7 @@ def make_simulator(
     """
     if source is None:
         return Simulator(config, worlds, threads)
-    factory: Any = source
-    if isinstance(source, str):
-        factory = plugins.find("simulator", NETWORK_SIMULATORS.get(source, source))
+    factory: Any = _found(source)
     made: Any = factory
     if callable(factory):
         _check_signature(factory, config, worlds, threads)

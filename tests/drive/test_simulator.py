@@ -313,7 +313,7 @@ def test_cameras_have_the_noise_that_is_told() -> None:
         **{name: getattr(Sensing("rc2021"), name) for name in CAMERA_NUMBERS},
     )
     assert forecasting(0.0, Sensing("rc2021", frame_loss=0.5)) == forecasting(0.0, "rc2021")
-    with pytest.raises(ValueError, match="^cameras: .*rc2031"):
+    with pytest.raises(ValueError, match=r"^cameras: .*rc2031"):
         forecasting(0.0, "rc2031")
     with pytest.raises(TypeError, match="cameras: expected a Sensing"):
         forecasting(0.0, 3.0)  # type: ignore[arg-type]

@@ -28,7 +28,7 @@ from rsoccer.files import write_atomically
 from rsoccer.lineup import opponents_of
 from rsoccer.replay.evaluation import record_last_match
 from rsoccer.replay.replay import SUFFIX
-from rsoccer.sources import NETWORK_SIMULATORS
+from rsoccer.sources import plays_one_match
 from rsoccer.task import Task
 
 
@@ -83,7 +83,7 @@ class Evaluate(Sources, Imports):
                 self.matches,
                 self.seed,
                 task=task,
-                worlds=1 if self.simulator in NETWORK_SIMULATORS else self.worlds,
+                worlds=1 if plays_one_match(self.simulator) else self.worlds,
                 threads=self.threads,
                 simulator=self.simulator,
                 sensing=self.sensing,

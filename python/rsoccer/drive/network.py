@@ -55,11 +55,16 @@ class Network:
     Matches that come one after the other share the connection: between them the robots stand. It
     ends with `close`, or with the process.
 
+    Attributes:
+        plays_one_match: True, as there is one match on the network.
+
     Example:
         >>> from rsoccer.drive import Limits, Network, Settings
         >>> network = Network(Settings("grsim", limits=Limits(speed=1.0)))
         >>> # rsoccer.evaluate("best", simulator=network, worlds=1)
     """
+
+    plays_one_match: Final = True
 
     def __init__(
         self,

@@ -16,7 +16,7 @@ from typing import Any, Final, Literal, Self, get_type_hints
 from rsoccer import plugins
 from rsoccer.option_values import encoded
 from rsoccer.registry import task_with_options
-from rsoccer.sources import NETWORK_SIMULATORS, make_sensing
+from rsoccer.sources import make_sensing, plays_one_match
 from rsoccer.task import Task
 from rsoccer.train.network.settings import NetworkSettings
 from rsoccer.train.opponents.settings import OpponentSettings
@@ -108,8 +108,6 @@ class Args:
             expect(name, given is None or isinstance(given, str), text, given)
         convert_fields(self)
         plugins.import_modules(self.imports)
-        if self.simulator is not None:
-            plugins.find("simulator", NETWORK_SIMULATORS.get(self.simulator, self.simulator))
         if self.is_on_network and self.rollout.worlds != 1:
             raise ValueError(
                 f"rollout.worlds: expected 1 with the simulator {self.simulator}, which steps one "
@@ -124,7 +122,7 @@ class Args:
     @property
     def is_on_network(self) -> bool:
         """True if another simulator plays, one match at a time: training is all that is played."""
-        return self.simulator in NETWORK_SIMULATORS
+        return plays_one_match(self.simulator)
 
     @classmethod
     def for_task(cls, task: str, **changes: Any) -> Self:  # noqa: ANN401  (any field)

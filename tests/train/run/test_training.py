@@ -8,12 +8,17 @@ import numpy as np
 import pytest
 
 from rsoccer.lineup import lineup
+from rsoccer.policies.network import Network
 from rsoccer.registry import make_task
 from rsoccer.replay import Replay, record_replay
 from rsoccer.train import PpoSettings, train
 from rsoccer.train.run import checkpoint, training
+from rsoccer.train.run.folder import POLICY_FILE
+from rsoccer.train.run.loop import Loop
+from rsoccer.train.run.stop_signal import Stopped
+from rsoccer.train.run.trainer import Trainer
 from tests.simulators import Elsewhere
-from tests.train.runs import digest, progress
+from tests.train.runs import StopAfter, digest, progress
 from tests.train.short_task import NAME, TINY, tiny
 
 
@@ -79,18 +84,71 @@ def test_matches_that_cannot_be_saved_begin_again(tmp_path: Path) -> None:
     assert len(progress(tmp_path)) == 6
 
 
-def test_a_run_is_saved_when_nobody_answers(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(
+    "error", [ConnectionError("nobody answers"), RuntimeError("all commands are refused")]
+)
+def test_a_run_is_saved_when_robots_fail(
+    error: Exception, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(Elsewhere, "left", 60)
+    monkeypatch.setattr(Elsewhere, "error", error)
     settings = {"simulator": "tests.simulators:Elsewhere", "ladder_interval": 0}
-    with pytest.raises(ConnectionError, match="nobody answers"):
+    with pytest.raises(type(error), match=str(error)):
         train(tiny(tmp_path, **settings))
     saved = checkpoint.load(tmp_path / checkpoint.FILE_NAME)
     assert saved.info["updates"] == len(progress(tmp_path)) == 2
+    weights = Network.load(tmp_path / POLICY_FILE).layers[0][0]
+    np.testing.assert_array_equal(weights.ravel(), saved.arrays["model.actor.0.weight"].ravel())
+    with pytest.raises(type(error), match=str(error)):  # not: the checkpoint does not fit
+        train(tiny(tmp_path, **settings, resume=True))
     monkeypatch.setattr(Elsewhere, "left", math.inf)
     train(tiny(tmp_path, **settings, resume=True))
     assert len(progress(tmp_path)) == 6
+
+
+def test_a_signal_saves_a_run_whose_robots_have_gone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class Gone(StopAfter):
+        def check(self) -> None:
+            try:
+                super().check()
+            except Stopped:
+                Elsewhere.left = -1  # the signal has ended the simulator, too
+                raise
+
+    monkeypatch.setattr(Elsewhere, "left", math.inf)
+    args = tiny(tmp_path, simulator="tests.simulators:Elsewhere", ladder_interval=0)
+    with pytest.raises(Stopped):
+        Loop(Trainer(args), {}).run(Gone(40), 0)
+    saved = checkpoint.load(tmp_path / checkpoint.FILE_NAME)
+    assert saved.info["updates"] == len(progress(tmp_path)) > 0
+
+
+def test_a_run_that_goes_on_elsewhere_begins_with_other_episodes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    starts: list[bytes] = []
+    monkeypatch.setattr(Elsewhere, "starts", starts)
+    settings = {"simulator": "tests.simulators:Elsewhere", "ladder_interval": 0}
+    update = 6 * 3 * 8
+    train(tiny(tmp_path, **settings, samples=update, solo_fraction=0.0))
+    first = len(starts)
+    for updates in (2, 3):
+        more = {"samples": updates * update, "resume": True, "solo_fraction": 0.0}
+        train(tiny(tmp_path, **settings, **more))
+    assert len(starts) > first > 1
+    # A new run and each that resumes put bodies once before the checkpoint is read.
+    again = [start for start in starts[1:first] if start in starts[first:]]
+    assert not again
+
+
+def test_a_team_learns_where_one_match_is_played(tmp_path: Path) -> None:
+    settings = {"simulator": "tests.simulators:OneMatch", "worlds": 1, "samples": 3 * 8 * 3}
+    train(tiny(tmp_path, **settings))
+    assert [row["samples"] for row in progress(tmp_path)] == ["24", "48", "72"]
+    with pytest.raises(ValueError, match=r"rollout\.worlds: expected 1 with the simulator"):
+        tiny(tmp_path, **{**settings, "worlds": 2})
 
 
 @pytest.mark.parametrize("info", ["[]", "{}", '{"args": 3, "log_size": 0}', '{"args": {}}'])

@@ -87,11 +87,15 @@ class RolloutCollector:
         self.matches, self._opponents = matches, opponents
         self.begin_again()
 
-    def begin_again(self) -> None:
-        """Begin new episodes in all matches."""
+    def begin_again(self, seed: int | None = None) -> None:
+        """Begin new episodes in all matches.
+
+        Args:
+            seed: seed of the first world; None lets the random streams of the matches go on.
+        """
         matches = self.matches
         self.discounted_returns = np.zeros((matches.worlds, len(matches.agents)), np.float32)
-        self.observations = matches.reset()
+        self.observations = matches.reset(seed)
         self._update_states()
 
     def collect(self, gamma: float, check_stop: Callable[[], None]) -> Rollout:

@@ -13,8 +13,8 @@ from rsoccer.train.run.folder import POLICY_FILE
 from rsoccer.train.run.ladder import Ladder
 from rsoccer.train.run.log import Logger
 from rsoccer.train.run.played import Played
-from rsoccer.train.run.state import capture, restore
-from rsoccer.train.run.stop_signal import Stopped, StopSignal
+from rsoccer.train.run.state import capture, restore_networks
+from rsoccer.train.run.stop_signal import StopSignal
 from rsoccer.train.run.trainer import Trainer
 
 
@@ -52,7 +52,8 @@ class Loop:
     def run(self, stop: StopSignal, log_size: int) -> None:
         """Train until the samples are used up, the callback ends the run or a signal comes.
 
-        The run is saved in all cases, also if the callback raises an error.
+        The run is saved in all cases, also if the callback raises an error, training diverges or
+        robots on a network do not answer: as it was after the last complete update.
 
         Args:
             stop: reports a signal.
@@ -71,17 +72,14 @@ class Loop:
             while trainer.samples < args.samples:
                 row = self._update(stop, logger)
                 saved = self._capture(logger)
-                if self._ends(row, saved):
+                if self._ends(row):
                     break
                 if time.monotonic() - saved_at > args.run.checkpoint_interval:
                     self.save(saved)
                     saved_at = time.monotonic()
                 stop.check()
-        except Stopped:
-            restore(trainer, saved)  # drop the update that the signal cut short
-            self.save(saved)
-            raise
-        except ConnectionError:  # robots on a network have stopped to answer
+        except BaseException:
+            restore_networks(trainer, saved)  # drop the update that was cut short
             self.save(saved)
             raise
         finally:
@@ -98,17 +96,12 @@ class Loop:
         checkpoint.save(out / checkpoint.FILE_NAME, saved)
         self.trainer.network().save(out / POLICY_FILE)
 
-    def _ends(self, row: Row, saved: Checkpoint) -> bool:
-        """Return whether the callback ends the run, which is saved if it fails."""
+    def _ends(self, row: Row) -> bool:
+        """Return whether the callback ends the run."""
         if self._callback is None:
             return False
-        try:
-            answer = self._callback(Update(self.trainer.args, dict(row), self.trainer.network))
-        except BaseException:
-            self.save(saved)
-            raise
+        answer = self._callback(Update(self.trainer.args, dict(row), self.trainer.network))
         if answer not in (None, True, False):
-            self.save(saved)
             raise TypeError(f"callback: expected it to return None or a bool, got {answer!r}")
         return answer is False
 

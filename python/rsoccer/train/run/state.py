@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+import numpy as np
 import torch
 
 from rsoccer.arrays import Array
@@ -66,43 +67,61 @@ def capture(trainer: Trainer, policy_files: Mapping[str, str], log_size: int) ->
 def restore(trainer: Trainer, saved: Checkpoint) -> None:
     """Give a new run the captured state; its updates then equal the captured run's bit for bit.
 
-    Without saved matches new episodes begin.
+    Without saved matches new episodes begin, with random numbers of their own.
 
     Args:
         trainer: a new run with the settings of the captured one.
         saved: state from `capture`.
 
     Raises:
+        ConnectionError: robots on a network do not answer.
+        RuntimeError: a simulator on a network refuses new episodes.
         ValueError: a checkpoint that lacks a part, or of another task or version.
     """
     try:
-        _restore(trainer, saved)
+        has_matches = _restore(trainer, saved)
     except (KeyError, RuntimeError, TypeError, ValueError) as error:
         raise ValueError(f"checkpoint does not fit this task and version: {error}") from error
+    if not has_matches:
+        seeds = np.random.SeedSequence((trainer.args.seed, trainer.updates))
+        trainer.collector.begin_again(int(seeds.generate_state(1)[0]))
 
 
-def _restore(trainer: Trainer, saved: Checkpoint) -> None:
-    """Restore every part of a run."""
-    arrays, info = saved.arrays, saved.info
-    if trainer.is_solo and not info["is_solo"]:
-        trainer.start_team()
-    collector = trainer.collector
+def restore_networks(trainer: Trainer, saved: Checkpoint) -> None:
+    """Give a run its captured networks and counters; the matches stay as they are.
+
+    Args:
+        trainer: the run.
+        saved: state from `capture`.
+    """
+    arrays, info, collector = saved.arrays, saved.info, trainer.collector
     model = {name: torch.tensor(part) for name, part in select_prefix("model", arrays).items()}
     trainer.model.load_state_dict(model)
     trainer.ppo.optimizer.load_state_dict(select_prefix("adam", arrays))
     collector.obs_rms.load_state_dict(select_prefix("obs_rms", arrays))
     collector.return_rms.load_state_dict(select_prefix("return_rms", arrays))
-    run, worlds = select_prefix("run", arrays), select_prefix("worlds", arrays)
     if collector.central is not None:
         collector.central.rms.load_state_dict(select_prefix("state_rms", arrays))
-    if worlds or collector.matches.can_be_saved:
+    trainer.samples, trainer.updates = info["samples"], info["updates"]
+    trainer.elapsed = info["elapsed"]
+    trainer.learning_rate.value = info["learning_rate"]
+
+
+def _restore(trainer: Trainer, saved: Checkpoint) -> bool:
+    """Restore every part of a run that was saved, and return whether the matches were."""
+    arrays, info = saved.arrays, saved.info
+    if trainer.is_solo and not info["is_solo"]:
+        trainer.start_team()
+    restore_networks(trainer, saved)
+    collector = trainer.collector
+    run, worlds = select_prefix("run", arrays), select_prefix("worlds", arrays)
+    has_matches = bool(worlds) or collector.matches.can_be_saved
+    if has_matches:
         collector.matches.load_state_dict(worlds)
         collector.discounted_returns = run["discounted_returns"].copy()
         collector.observations = run["observations"].copy()
         if collector.central is not None:
             collector.states = run["states"].copy()
-    else:
-        collector.begin_again()
     trainer.generator.set_state(torch.tensor(run["generator"]))
     if trainer.args.ppo.overlap:
         trainer.minibatch_generator.set_state(torch.tensor(run["minibatch_generator"]))
@@ -110,11 +129,9 @@ def _restore(trainer: Trainer, saved: Checkpoint) -> None:
         if pending is not None:
             pending = Played.restored(select_prefix("pending", arrays), pending)
         trainer.pending = pending
-    trainer.samples, trainer.updates = info["samples"], info["updates"]
-    trainer.elapsed = info["elapsed"]
-    trainer.learning_rate.value = info["learning_rate"]
     trainer.show_policy()
     if trainer.pool is not None:
         assert trainer.pool.latest is not None, "the policy was shown"
         metadata = trainer.pool.latest.metadata
         trainer.pool.load_state_dict(select_prefix("pool", arrays), metadata)
+    return has_matches

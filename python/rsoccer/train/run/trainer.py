@@ -6,6 +6,7 @@ updates the networks. `loop` runs one update after the other, `state` captures a
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Callable
 
 import numpy as np
@@ -86,8 +87,11 @@ class Trainer:
         self.generator = self.minibatch_generator = torch.Generator().manual_seed(torch_seed)
         if args.ppo.overlap:
             self.minibatch_generator = torch.Generator().manual_seed(minibatch_seed)
+        opponents = args.opponents
+        if args.is_on_network:  # one learner a match needs a match for each
+            opponents = dataclasses.replace(opponents, solo_fraction=0.0)
         self.curriculum = Curriculum(
-            args.opponents,
+            opponents,
             self.task,
             self.clock,
             worlds=args.rollout.worlds,
