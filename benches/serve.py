@@ -71,6 +71,8 @@ def play(port: int, vision: int, seconds: float, results: "multiprocessing.Queue
         seconds: duration from the first frame, s.
         results: queue of results.
     """
+    # Made before, so that the speed is that of the server and of sockets.
+    commands = [control(turn) for turn in range(-3, 4)]
     arrivals, sent, numbers = [], [], []
     with group_receiver(SSL_GROUPS["vision"], vision, LOOPBACK) as eye, receiver(LOOPBACK, 0) as me:
         eye.settimeout(PATIENCE)
@@ -82,7 +84,7 @@ def play(port: int, vision: int, seconds: float, results: "multiprocessing.Queue
             arrivals.append(now)
             sent.append(detection.t_sent)
             numbers.append(detection.frame_number)
-            me.sendto(control(len(numbers) % 7 - 3.0), (LOOPBACK, port))
+            me.sendto(commands[len(numbers) % len(commands)], (LOOPBACK, port))
             drain(me)
     delays = np.array(arrivals) - np.array(sent)
     delays -= delays.min()
