@@ -60,7 +60,8 @@ class Loop:
             log_size: bytes of the log's CSV file to keep; 0 for a new run.
 
         Raises:
-            Stopped: a signal came. The update in progress was dropped.
+            BaseException: what ended the run early, such as `Stopped` by a signal. The update in
+                progress was dropped.
         """
         trainer, args = self.trainer, self.trainer.args
         logger = Logger(
