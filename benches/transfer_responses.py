@@ -36,12 +36,12 @@ HELD: Final = 0.3
 
 @dataclass(frozen=True)
 class Response:
-    """What a robot is commanded, and what is measured."""
+    """Commands of a robot, and what is measured."""
 
     name: str
     """Name of the row."""
     body: str
-    """What moves: "ball", "robot" or "heading"."""
+    """Body that moves: "ball", "robot" or "heading"."""
     command: Mapping[str, float]
     """Numbers by column of the commands."""
     seconds: float
