@@ -82,3 +82,13 @@ def by_name(settings: dict[str, Any]) -> dict[str, Any]:
 def tiny(out: Path, **changes: Any) -> Args:  # noqa: ANN401  (any field)
     """Return the settings `TINY` with changes, by names without their parts."""
     return Args.from_json(by_name({**TINY, "out": out, **changes}))
+
+
+UPDATES = 25
+"""Updates of `easy`."""
+
+
+def easy(out: Path, **changes: Any) -> Args:  # noqa: ANN401  (any field)
+    """Return settings with which `UPDATES` updates learn `Forward`, with changes as in `tiny`."""
+    shape = {"task": FORWARD, "worlds": 32, "samples": UPDATES * 32 * 3 * 8}
+    return tiny(out, **{**shape, "n_epochs": 8, "learning_rate": 5e-3, **changes})

@@ -21,7 +21,7 @@ from rsoccer.train.run.state import restore
 from rsoccer.train.run.stop_signal import Stopped, StopSignal
 from rsoccer.train.run.trainer import Trainer
 from tests.train.runs import digest, progress, run_until
-from tests.train.short_task import FORWARD, tiny
+from tests.train.short_task import UPDATES, easy, tiny
 
 CENTRAL = {"central_critic": True, "mirror_augmentation": True, "random_truncation": 0.1}
 CASES: dict[str, dict[str, Any]] = {"self-play": {}, "central, mirrored": CENTRAL}
@@ -307,16 +307,9 @@ def test_a_run_that_diverges_keeps_its_last_checkpoint(tmp_path: Path) -> None:
 
 def test_training_raises_the_reward(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(update, "TARGET_KL", 1.0)
-    args = overlapped(
-        tmp_path,
-        task=FORWARD,
-        worlds=32,
-        n_epochs=8,
-        learning_rate=5e-3,
-        samples=25 * 32 * 3 * 8,
-    )
+    args = easy(tmp_path, overlap=True)
     trainer, rewards = Trainer(args), []
-    for _ in range(25):
+    for _ in range(UPDATES):
         played = overlap.update(trainer, lambda: None)
         rewards.append(played.rewards["reward"] / args.rollout.action_repeat)
     assert abs(rewards[0]) < 0.1, "untrained"

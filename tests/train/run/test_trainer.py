@@ -19,7 +19,7 @@ from rsoccer.train.run.state import capture
 from rsoccer.train.run.stop_signal import StopSignal
 from rsoccer.train.run.trainer import Trainer
 from tests.train.runs import digest, progress, run_until
-from tests.train.short_task import FORWARD, NAME, tiny
+from tests.train.short_task import NAME, UPDATES, easy, tiny
 
 
 def test_the_log_and_the_checkpoint_of_a_run_are_complete(finished: Path) -> None:
@@ -233,16 +233,9 @@ def test_a_single_weight_that_is_not_finite_is_a_divergence(tmp_path: Path) -> N
 
 def test_training_raises_the_reward(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(update, "TARGET_KL", 1.0)
-    args = tiny(
-        tmp_path,
-        task=FORWARD,
-        worlds=32,
-        n_epochs=8,
-        learning_rate=5e-3,
-        samples=25 * 32 * 3 * 8,
-    )
+    args = easy(tmp_path)
     trainer, rewards = Trainer(args), []
-    for _ in range(25):
+    for _ in range(UPDATES):
         trainer.update(trainer.collect_rollout(lambda: None), lambda: None)
         rewards.append(trainer.collector.reward_means["reward"] / args.rollout.action_repeat)
     assert abs(rewards[0]) < 0.1, "untrained"
