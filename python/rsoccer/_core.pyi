@@ -2094,8 +2094,8 @@ class VisionTracker:
 
     It filters what cameras of other simulators and of real fields see, as the tracker of `Sensing`
     filters what simulated ones do: positions and velocities, balls that are none, headings that are
-    misread. Its filters are those for noise and frame rate of `config.sensing`; without senses for
-    the least noise that they count with, at 60 Hz.
+    misread. Its filters are those for noise and frame rate of `config.sensing`; numbers that are 0
+    there are those of "rc2021", at 60 Hz.
 
     Example:
         >>> import numpy as np

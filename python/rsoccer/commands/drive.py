@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from rsoccer.drive.settings import Settings
 
 _IDS = arg(metavar="[INT [INT ...]]", help_behavior_hint="(default: 0, 1, ...)")
-_CAMERAS = arg(metavar="PRESET|FILE", help_behavior_hint="(default: the least noise)")
+_CAMERAS = arg(metavar="PRESET|FILE", help_behavior_hint="(default: rc2021 at 60 Hz)")
 _LIMIT = arg(help_behavior_hint="(default: none)")
 REPORTED_STEPS: Final = 20
 """Control steps of an episode from which its end is reported."""

@@ -24,8 +24,8 @@ def forecasting(delay: float, cameras: str | Sensing | None = None) -> Sensing |
     Args:
         delay: time from a command until vision shows its effect, s, 0 or above, as
             `rsoccer drive --check` measures it.
-        cameras: senses whose noise and frame rate those of the cameras are, such as "rc2021"; None
-            for the least noise that the tracker counts with. `rsoccer identify` measures them.
+        cameras: senses whose noise and frame rate those of the cameras are; None for those of
+            "rc2021" at 60 Hz. `rsoccer identify` measures them.
 
     Returns:
         Senses for `Matches(sensing=...)`; None without delay and cameras.

@@ -79,8 +79,8 @@ class Session:
             settings: the settings.
             delay: time from a command until vision shows its effect, s: policies know the state
                 after it. 0 for the state of the newest frame.
-            cameras: senses whose noise and frame rate those of the cameras are; None for the least
-                noise that the tracker counts with.
+            cameras: senses whose noise and frame rate those of the cameras are; None for those of
+                "rc2021" at 60 Hz.
             seed: seed of the policy's random numbers.
             link: what carries datagrams; None for sockets.
             clock: time on the wall, s.
