@@ -304,10 +304,10 @@ def test_the_forecast_is_the_state_after_the_delay() -> None:
     assert forecasting(0.0) is None
 
 
-def test_cameras_have_the_noise_that_is_told() -> None:
-    told = forecasting(0.1, "rc2021")
-    assert told is not None
-    assert told == Sensing(
+def test_cameras_have_the_noise_of_a_preset() -> None:
+    made = forecasting(0.1, "rc2021")
+    assert made is not None
+    assert made == Sensing(
         command_delay=0.1,
         forecast=1,
         **{name: getattr(Sensing("rc2021"), name) for name in CAMERA_NUMBERS},

@@ -135,7 +135,8 @@ def test_maximum_angular_velocity_balances_grip_floor_and_centripetal_force() ->
 
 def test_every_preset_is_cited() -> None:
     assert set(BallModel.PRESETS) == set(cited.BALLS)
-    assert set(RobotModel.PRESETS) == set(cited.SSL_ROBOTS) | set(cited.VSS_ROBOTS)
+    robots = (cited.SSL_ROBOTS, cited.SSL_MIMICS, cited.VSS_ROBOTS, cited.VSS_MIMICS)
+    assert sorted(RobotModel.PRESETS) == sorted(name for each in robots for name in each)
     assert set(Field.PRESETS) == set(cited.FIELDS)
 
 

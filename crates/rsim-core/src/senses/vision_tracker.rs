@@ -304,7 +304,7 @@ mod tests {
     }
 
     #[test]
-    fn noise_that_nobody_told_gives_a_held_ball_little_velocity() {
+    fn noise_that_is_not_known_gives_a_held_ball_little_velocity() {
         assert!(slip(1.0) < 0.08, "{}", slip(1.0));
         assert!(slip(0.5) < 0.08, "{}", slip(0.5));
     }

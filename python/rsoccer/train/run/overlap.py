@@ -23,7 +23,7 @@ from rsoccer.train.run.played import Played
 from rsoccer.train.run.trainer import Trainer
 
 
-class _Cancelled(Exception):
+class _Canceled(Exception):
     """The rollout beside an update has failed; ends the update."""
 
 
@@ -51,11 +51,11 @@ def update(trainer: Trainer, check_stop: Callable[[], None]) -> Played:
     learning_rate = trainer.learning_rate.start_update(trainer.progress)
     goes_on = trainer.samples < trainer.args.samples and not trainer.ends_solo
     following: Played | None = None
-    cancelled = threading.Event()
+    canceled = threading.Event()
 
     def check() -> None:
-        if cancelled.is_set():
-            raise _Cancelled
+        if canceled.is_set():
+            raise _Canceled
         check_stop()
 
     trainer.ppo.begin()
@@ -70,7 +70,7 @@ def update(trainer: Trainer, check_stop: Callable[[], None]) -> Played:
             with trainer.clock.measure("learning"):
                 stats = learning.result()
         except BaseException:  # an interrupt, too
-            cancelled.set()
+            canceled.set()
             raise
     trainer.ppo.finish()
     trainer.end_update(stats)
