@@ -57,22 +57,22 @@ def main(arguments: list[str] | None = None) -> None:
         )
     )
     if options.whole:
-        _measure_whole(trainer)
+        _measure_whole(trainer, overlap=options.overlap)
     else:
         _measure_least(trainer, timer)
 
 
-def _measure_whole(trainer: Trainer) -> None:
+def _measure_whole(trainer: Trainer, *, overlap: bool) -> None:
     """Print seconds of the rollout, of learning and waiting, of the update, and its samples.
 
     Each line is of one update, by wall time. Learning includes values and reflections of samples.
     """
+    if overlap:  # packages from before the option have no such module
+        from rsoccer.train.run.overlap import update as overlapped_update
 
     def play_and_learn() -> None:
-        if trainer.args.to_json().get("ppo.overlap"):
-            from rsoccer.train.run import overlap
-
-            overlap.update(trainer, lambda: None)
+        if overlap:
+            overlapped_update(trainer, lambda: None)
         else:
             trainer.update(trainer.collect_rollout(lambda: None), lambda: None)
 

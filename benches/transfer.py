@@ -19,14 +19,14 @@ from benches.transfer_places import (
     HOME,
     PLACES,
     TRIALS,
-    Place,
     Trial,
     as_played,
     is_forecast,
     likeness,
+    port_numbers,
 )
 from rsoccer import files
-from rsoccer.drive import Network, Settings
+from rsoccer.drive import Network
 from rsoccer.evaluate.episodes import EpisodeRunner
 from rsoccer.evaluate.schedule import first_seed
 from rsoccer.lineup import lineup
@@ -85,7 +85,7 @@ def play(
 
 
 def measure(
-    name: str, trials: Sequence[Trial], matches: int, path: Path, ports: Mapping[str, str]
+    name: str, trials: Sequence[Trial], matches: int, path: Path, ports: Mapping[str, int]
 ) -> None:
     """Play the episodes of a place that its file lacks.
 
@@ -97,7 +97,7 @@ def measure(
         ports: names and numbers of ports that differ from those of the place.
     """
     results: Results = json.loads(path.read_text()) if path.exists() else {}
-    network = Network(_settings(PLACES[name], ports)) if name in PLACES else None
+    network = Network(PLACES[name].settings(ports)) if name in PLACES else None
     try:
         for trial in trials:
             task, sensing = _played(name, trial)
@@ -124,11 +124,6 @@ def _keep(path: Path, trial: str, row: dict[str, Any]) -> None:
     results: Results = json.loads(path.read_text()) if path.exists() else {}
     content = json.dumps(results | {trial: row})
     files.write_atomically(path, (content + "\n").encode())
-
-
-def _settings(place: Place, ports: Mapping[str, str]) -> Settings:
-    numbers = {**place.ports, **{name: int(port) for name, port in ports.items()}}
-    return Settings(place.peer, ports=numbers, groups=place.groups, referee="ignore")
 
 
 def _played(name: str, trial: Trial) -> tuple[Task, SensingSource | None]:
@@ -170,7 +165,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         parser.error(f"{path} exists; --resume goes on with it")
     given.results.mkdir(parents=True, exist_ok=True)
     chosen = [known[name] for name in given.trials or known]
-    measure(given.place, chosen, given.matches, path, dict(p.split("=") for p in given.ports))
+    measure(given.place, chosen, given.matches, path, port_numbers(given.ports))
 
 
 if __name__ == "__main__":

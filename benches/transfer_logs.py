@@ -15,9 +15,8 @@ from typing import Any, Final
 
 import numpy as np
 
-from benches.transfer_places import PLACES
-from rsoccer import RobotModel, SimConfig
-from rsoccer.drive import Settings
+from benches.transfer_places import PLACES, port_numbers
+from rsoccer import RobotModel
 from rsoccer.drive.connection import Connection
 from rsoccer.drive.sight import Sight
 from rsoccer.drive.simulator import NetworkSimulator
@@ -89,15 +88,10 @@ def record(place: str, ports: dict[str, int], speed: float, turn: float) -> Log:
         turn: greatest commanded angular velocity, rad/s.
     """
     known = PLACES[place]
-    league = known.league
-    model = RobotModel(known.robot)
-    config = SimConfig("ssl_b" if league == "ssl" else "vss_3v3", 1, 0, robot=model)
-    settings = Settings(
-        known.peer, ports={**known.ports, **ports}, groups=known.groups, referee="ignore"
-    )
-    connection = Connection(config, settings)
+    config = known.config()
+    connection = Connection(config, known.settings(ports))
     try:
-        return Log.of_rows(_follow(connection, model, speed, turn))
+        return Log.of_rows(_follow(connection, config.robots[0], speed, turn))
     finally:
         connection.close()
 
@@ -160,9 +154,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--turn", type=float, default=10.0, help="greatest angular velocity, rad/s")
     parser.add_argument("--ports", nargs="*", default=[], metavar="NAME=PORT", help="other ports")
     given = parser.parse_args(arguments)
-    ports = {name: int(port) for name, port in (each.split("=") for each in given.ports)}
     speed = given.speed or (2.5 if PLACES[given.place].league == "ssl" else 0.8)
-    write_log(record(given.place, ports, speed, given.turn), given.log)
+    write_log(record(given.place, port_numbers(given.ports), speed, given.turn), given.log)
 
 
 if __name__ == "__main__":

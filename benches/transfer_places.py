@@ -1,10 +1,11 @@
 """Other simulators, and what is played in them: data of `benches.transfer`."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Final
 
-from rsoccer import Sensing
+from rsoccer import Sensing, SimConfig
+from rsoccer.drive import Settings
 from rsoccer.policies import make_policy
 from rsoccer.registry import make_task
 from rsoccer.sources import make_sensing
@@ -43,6 +44,21 @@ class Place:
     def league(self) -> str:
         """League, "ssl" or "vsss"."""
         return "vsss" if self.peer == "firasim" else "ssl"
+
+    def config(self) -> SimConfig:
+        """Return a match of one robot of the place with its ball."""
+        field = "ssl_b" if self.league == "ssl" else "vss_3v3"
+        return SimConfig(field, 1, 0, robot=self.robot or None, ball=self.ball or None)
+
+    def settings(self, ports: Mapping[str, int]) -> Settings:
+        """Return the settings of the connection.
+
+        Args:
+            ports: ports that differ from those of the place.
+        """
+        return Settings(
+            self.peer, ports={**self.ports, **ports}, groups=self.groups, referee="ignore"
+        )
 
 
 PLACES: Final[Mapping[str, Place]] = {
@@ -87,6 +103,15 @@ PLACES: Final[Mapping[str, Place]] = {
     ),
 }
 """Other simulators by name."""
+
+
+def port_numbers(words: Sequence[str]) -> dict[str, int]:
+    """Return the ports of a command line by name.
+
+    Args:
+        words: such as "vision=10020".
+    """
+    return {name: int(port) for name, port in (word.split("=") for word in words)}
 
 
 @dataclass(frozen=True)

@@ -18,11 +18,11 @@ from typing import Any, Final
 import numpy as np
 
 from benches.markdown import table
-from benches.transfer_places import PLACES, Place
+from benches.transfer_places import PLACES, Place, port_numbers
 from rsoccer import SimConfig, Simulator, files
 from rsoccer._core import Threads
 from rsoccer.arrays import Doubles
-from rsoccer.drive import Network, Settings
+from rsoccer.drive import Network
 from rsoccer.frame import Frame
 from rsoccer.simulator_interface import Placer, Stepper
 
@@ -49,7 +49,12 @@ class Response:
     times: tuple[float, ...]
     """Times of the measurement since the first motion, s."""
     ball_speed: float = 0.0
-    """Speed of the ball at the start, m/s; with 0 it lies in the mouth, if there is one."""
+    """Speed of the ball at the start, m/s; one that is kicked lies in the mouth."""
+
+    @property
+    def is_kick(self) -> bool:
+        """True if the robot kicks the ball from its mouth."""
+        return self.body == "ball" and self.ball_speed == 0.0
 
 
 def _ssl() -> tuple[Response, ...]:
@@ -108,11 +113,11 @@ class Recorder:
         position, heading = start.robots.position[0, 0], start.robots.heading[0, 0]
         position[:], heading[:] = (-0.8 * half, 0.0), (1.0, 0.0)
         ball = start.ball
-        if response.ball_speed > 0.0 or not model.has_mouth or response.body != "ball":
-            ball.position[0] = (-0.8 * half, 0.5 * self.config.field.width * 0.8)
-            ball.velocity[0] = (response.ball_speed, 0.0)
-        else:
+        if response.is_kick:
             ball.position[0] = (-0.8 * half + model.front_distance + self.config.ball.radius, 0.0)
+        else:
+            ball.position[0] = (-0.8 * half, 0.4 * self.config.field.width)
+            ball.velocity[0] = (response.ball_speed, 0.0)
         placer: Placer = self.stepper
         self.rows.clear()
         self._note(placer.place(np.ones(1, np.bool_), start.rows, start.rows), start)
@@ -160,8 +165,7 @@ def measure(stepper: object, config: SimConfig, response: Response) -> list[floa
     """
     recorder = Recorder(stepper, config)
     recorder.begin(response)
-    holds = response.body == "ball" and response.ball_speed == 0.0
-    if holds:
+    if response.is_kick:
         recorder.play({"dribbler": 1.0}, HELD)
         del recorder.rows[:-1]
     recorder.play(response.command, response.seconds)
@@ -185,17 +189,12 @@ def responses(place: Place, ports: Mapping[str, int] | None = None) -> dict[str,
         place: another simulator.
         ports: its ports that differ; None for its likeness in this package's own simulator.
     """
-    name = "ssl_b" if place.league == "ssl" else "vss_3v3"
-    config = SimConfig(name, 1, 0, robot=place.robot or None, ball=place.ball or None)
-    known = RESPONSES[place.league]
+    config, known = place.config(), RESPONSES[place.league]
     if ports is None:
         return {
             each.name: measure(Simulator(config, 1, Threads(1)), config, each) for each in known
         }
-    settings = Settings(
-        place.peer, ports={**place.ports, **ports}, groups=place.groups, referee="ignore"
-    )
-    network = Network(settings)
+    network = Network(place.settings(ports))
     try:
         stepper = network(config, 1, Threads(1))
         return {each.name: measure(stepper, config, each) for each in known}
@@ -227,7 +226,7 @@ def report(folder: Path = STORED) -> str:
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Measure, and print or store the numbers.
+    """Measure and store the numbers, and print the table.
 
     Args:
         arguments: words of the command line; None for those of the process.
@@ -237,8 +236,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--ports", nargs="*", default=[], metavar="NAME=PORT", help="other ports")
     parser.add_argument("--results", type=Path, default=STORED, help="folder of the numbers")
     given = parser.parse_args(arguments)
-    ports = {name: int(port) for name, port in (each.split("=") for each in given.ports)}
-    found = responses(PLACES[given.place], ports)
+    found = responses(PLACES[given.place], port_numbers(given.ports))
     rounded = {name: np.round(ways, 4).tolist() for name, ways in found.items()}
     given.results.mkdir(parents=True, exist_ok=True)
     content = json.dumps(rounded, indent=1) + "\n"

@@ -158,10 +158,8 @@ class NetworkStepper(Stepper, Reader, SensingStepper, Closer):
         known = Frame.empty(1, config.n_blue, config.n_yellow)
         self.connection.sight.read(known.rows, own)
         present = self._rows.copy()
-        present.ball.position[:], present.ball.velocity[:] = (
-            known.ball.position,
-            known.ball.velocity,
-        )
+        present.ball.position[:] = known.ball.position
+        present.ball.velocity[:] = known.ball.velocity
         present.robots.data[..., :_MOTION_SIZE] = known.robots.data[..., :_MOTION_SIZE]
         return present.rows
 

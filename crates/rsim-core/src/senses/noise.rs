@@ -2,8 +2,7 @@
 
 use crate::models::sensing::Sensing;
 
-/// Least standard deviations, m and rad: cameras without noise leave rounding, and those of other simulators and of
-/// fields have a noise that nobody knows.
+/// Least standard deviations, m and rad: cameras without noise leave rounding.
 const MIN_DEVIATION: f32 = 0.000_3;
 const MIN_HEADING_DEVIATION: f32 = 0.002;
 

@@ -106,14 +106,19 @@ impl VisionTracker {
 
     /// Whether a robot was seen not long before the last frame.
     pub fn has_robot(&self, robot: usize) -> bool {
-        self.time.is_some_and(|time| self.in_sight(time) >> robot & 1 == 1)
+        self.time.is_some_and(|time| self.is_in_sight(robot, time))
+    }
+
+    /// Whether a robot was seen not long before a time, s.
+    fn is_in_sight(&self, robot: usize, time: f64) -> bool {
+        time - self.robots_seen[robot] <= ABSENT
     }
 
     /// Robots that were seen not long before a time (s), one bit each.
     fn in_sight(&self, time: f64) -> u64 {
-        let seen = self.robots_seen.iter().enumerate();
-        seen.filter(|(_, seen)| time - **seen <= ABSENT)
-            .fold(0, |bits, (robot, _)| bits | 1 << robot)
+        (0..self.robots_seen.len())
+            .filter(|robot| self.is_in_sight(*robot, time))
+            .fold(0, |bits, robot| bits | 1 << robot)
     }
 
     /// Takes note of commands of all robots that were sent at a time (s, on the clock of the frames) to `robots`, one
@@ -145,7 +150,7 @@ impl VisionTracker {
         if self.time.is_some_and(|last| time < last) {
             return false;
         }
-        let is_known = |seen: &SeenRobot| time - self.robots_seen[seen.robot] <= ABSENT;
+        let is_known = |seen: &SeenRobot| self.is_in_sight(seen.robot, time);
         let (known, new): (Vec<SeenRobot>, Vec<SeenRobot>) =
             robots.iter().copied().partition(is_known);
         if self.time.is_some() {
