@@ -2,11 +2,14 @@
 
 import csv
 import hashlib
+from collections.abc import Iterable
 from pathlib import Path
 
 import pytest
 
-from rsoccer.train import Args
+from rsoccer.train import Args, train
+from rsoccer.train.network import evaluator
+from rsoccer.train.ppo import loss_gradient
 from rsoccer.train.run import checkpoint
 from rsoccer.train.run.loop import Loop
 from rsoccer.train.run.stop_signal import Stopped, StopSignal
@@ -21,6 +24,13 @@ def digest(folder: Path) -> str:
         total.update(f"{name} {array.shape} {array.dtype}".encode() + array.tobytes())
     total.update(f"{saved.info['samples']} {saved.info['updates']}".encode())
     return total.hexdigest()
+
+
+def digests_by_small_parts(runs: Iterable[Args], monkeypatch: pytest.MonkeyPatch) -> set[str]:
+    """Train runs that share out few samples at a time, so that all threads work; their digests."""
+    monkeypatch.setattr(loss_gradient, "SHARD", 10)
+    monkeypatch.setattr(evaluator, "SHARD", 5)
+    return {digest(train(args).parent) for args in runs}
 
 
 def progress(folder: Path) -> list[dict[str, str]]:

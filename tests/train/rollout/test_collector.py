@@ -10,13 +10,11 @@ import torch
 from rsoccer.arrays import Floats
 from rsoccer.matches import Matches
 from rsoccer.train import train
-from rsoccer.train.network import evaluator
-from rsoccer.train.ppo import loss_gradient
 from rsoccer.train.rollout import collector
 from rsoccer.train.rollout.samples import Rollout
 from rsoccer.train.rollout.transition import Transition, repeat_action
 from rsoccer.train.run.trainer import Trainer
-from tests.train.runs import digest, run_until
+from tests.train.runs import digest, digests_by_small_parts, run_until
 from tests.train.short_task import tiny
 
 LATE = {"sensing": "rc2021", "history": 3, "random_truncation": 0.2, "worlds": 12, "horizon": 12}
@@ -88,14 +86,11 @@ CASES = {
 def test_runs_are_equal_for_any_number_of_threads(
     changes: dict[str, Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(loss_gradient, "SHARD", 10)
-    monkeypatch.setattr(evaluator, "SHARD", 5)
-    digests = set()
-    for threads in (1, 2, 3):
-        folder = tmp_path / str(threads)
-        train(tiny(folder, threads=threads, samples=4 * 144, **changes))
-        digests.add(digest(folder))
-    assert len(digests) == 1
+    runs = (
+        tiny(tmp_path / str(threads), threads=threads, samples=4 * 144, **changes)
+        for threads in (1, 2, 3)
+    )
+    assert len(digests_by_small_parts(runs, monkeypatch)) == 1
 
 
 def test_a_run_resumes_with_other_threads(finished: Path, tmp_path: Path) -> None:

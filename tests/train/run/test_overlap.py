@@ -10,8 +10,7 @@ import pytest
 import torch
 
 from rsoccer.train import Args, train
-from rsoccer.train.network import evaluator
-from rsoccer.train.ppo import loss_gradient, update
+from rsoccer.train.ppo import update
 from rsoccer.train.ppo.batch import Batch
 from rsoccer.train.rollout.episode_stats import Row
 from rsoccer.train.rollout.samples import Rollout
@@ -20,7 +19,7 @@ from rsoccer.train.run.loop import Loop
 from rsoccer.train.run.state import restore
 from rsoccer.train.run.stop_signal import Stopped, StopSignal
 from rsoccer.train.run.trainer import Trainer
-from tests.train.runs import digest, progress, run_until
+from tests.train.runs import digest, digests_by_small_parts, progress, run_until
 from tests.train.short_task import UPDATES, easy, tiny
 
 CENTRAL = {"central_critic": True, "mirror_augmentation": True, "random_truncation": 0.1}
@@ -126,14 +125,11 @@ def test_a_rollout_is_played_during_an_update(tmp_path: Path) -> None:
 def test_runs_are_equal_for_any_number_of_threads(
     changes: dict[str, Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(loss_gradient, "SHARD", 10)
-    monkeypatch.setattr(evaluator, "SHARD", 5)
-    digests = set()
-    for threads in (1, 3):
-        folder = tmp_path / str(threads)
-        train(overlapped(folder, threads=threads, samples=5 * 144, **changes))
-        digests.add(digest(folder))
-    assert len(digests) == 1
+    runs = (
+        overlapped(tmp_path / str(threads), threads=threads, samples=5 * 144, **changes)
+        for threads in (1, 3)
+    )
+    assert len(digests_by_small_parts(runs, monkeypatch)) == 1
 
 
 # An update has 8 checks in a rollout, 4 in the minibatches and one at the end: 21, 13 and 5 in the
