@@ -1,5 +1,7 @@
 //! Break beam, kicker and dribbler of a robot, as they act on the ball.
 
+use serde::{Deserialize, Serialize};
+
 use crate::ball::rolling::GroundMotion;
 use crate::ball::state::BallState;
 use crate::columns::MAX_COMMAND;
@@ -13,7 +15,7 @@ use crate::models::robot::RobotModel;
 const CENTERING_RATE: f32 = 20.0;
 
 /// Errors of a kicker.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Kicker {
     /// Factor on the speed.
     pub(crate) gain: f32,

@@ -3,11 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use crate::ball::mouth::Kicker;
-use crate::body_parameters::BodyParameters;
-use crate::drive::WheelMap;
+use crate::body_parameters::{BodyParameters, RobotParameters};
 use crate::geometry::motion::rotated;
 use crate::math::Vector;
-use crate::models::robot::{Drive, RobotModel};
+use crate::models::robot::Drive;
 use crate::models::sensing::Sensing;
 use crate::senses::random::{Draws, Purpose};
 
@@ -20,39 +19,31 @@ const EMPTY_BATTERY: f32 = 0.5;
 /// Actuators of all robots of a match.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Actuators {
+    /// The robots' wheels.
     wheels: Vec<Wheels>,
+    /// The robots' kickers.
+    kickers: Vec<Kicker>,
     /// Commands as the robots obey them, a row for each.
     commands: Vec<f32>,
-    /// Factor on the speed of the kicks of each robot.
-    kick_gains: Vec<f32>,
-    /// Direction of the kicks of each robot from its heading, rad.
-    kick_directions: Vec<f32>,
 }
 
-/// The wheels of a robot.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+/// The wheels of a robot: factors on their speeds.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 struct Wheels {
-    /// Factors on their speeds.
     gains: [f32; WHEELS],
-    /// Kinematics of a robot that is commanded by its velocity.
-    map: Option<WheelMap>,
 }
 
 impl Wheels {
-    fn new(model: &RobotModel, sensing: &Sensing, draws: &mut Draws) -> Self {
-        let gains = std::array::from_fn(|_| (1.0 + draws.normal(sensing.wheel_error)).max(0.0));
-        let map = match &model.drive {
-            Drive::Omni(drive) => Some(WheelMap::of(drive)),
-            Drive::Differential(_) | Drive::OmniWheels(_) => None,
-        };
-        Self { gains, map }
+    fn new(sensing: &Sensing, draws: &mut Draws) -> Self {
+        let gain = |_| (1.0 + draws.normal(sensing.wheel_error)).max(0.0);
+        Self { gains: std::array::from_fn(gain) }
     }
 
     /// Turns wheels that stand below `dead_zone` and do not turn faster than `limit`, rad/s. A robot whose
     /// fastest wheel is limited goes the same way more slowly.
     fn turn(&self, speeds: &mut [f32], dead_zone: f32, limit: f32) {
         let fastest = speeds.iter().fold(0.0_f32, |most, speed| most.max(speed.abs()));
-        let slower = (limit / fastest).min(1.0);
+        let slower = if fastest > limit { limit / fastest } else { 1.0 };
         for (speed, gain) in speeds.iter_mut().zip(&self.gains) {
             *speed *= if speed.abs() < dead_zone { 0.0 } else { gain * slower };
         }
@@ -61,20 +52,11 @@ impl Wheels {
 
 impl Actuators {
     /// The actuators of all robots, with their errors. A command has `columns` numbers.
-    pub(super) fn new(
-        parameters: &BodyParameters,
-        columns: usize,
-        sensing: &Sensing,
-        draws: &mut Draws,
-    ) -> Self {
-        let robots = parameters.robots.len();
-        let wheels = parameters.robots.iter();
-        let wheels = wheels.map(|body| Wheels::new(&body.model, sensing, draws)).collect();
+    pub(super) fn new(robots: usize, columns: usize, sensing: &Sensing, draws: &mut Draws) -> Self {
         Self {
-            wheels,
+            wheels: (0..robots).map(|_| Wheels::new(sensing, draws)).collect(),
+            kickers: vec![Kicker::EXACT; robots],
             commands: vec![0.0; robots * columns],
-            kick_gains: vec![1.0; robots],
-            kick_directions: vec![0.0; robots],
         }
     }
 
@@ -90,16 +72,20 @@ impl Actuators {
     ) {
         self.commands.copy_from_slice(heard);
         let battery = (1.0 - sensing.battery_sag * seconds).max(EMPTY_BATTERY);
+        if battery >= 1.0 && obeys_exactly(sensing) {
+            return;
+        }
         let mut draws = Draws::of(key, Purpose::Command, !number);
         let kick_failures = draws.which(sensing.kick_failures, self.wheels.len());
         let dribbler_failures = draws.which(sensing.dribbler_failures, self.wheels.len());
         let columns = heard.len() / self.wheels.len().max(1);
+        let inexact = sensing.wheel_error > 0.0 || sensing.wheel_dead_zone > 0.0 || battery < 1.0;
         let robots = self.commands.chunks_exact_mut(columns.max(1)).zip(&self.wheels);
         for (index, (command, wheels)) in robots.enumerate() {
-            let model = &parameters.robots[index].model;
-            let inexact = sensing.wheel_error > 0.0 || sensing.wheel_dead_zone > 0.0;
-            if inexact || battery < 1.0 {
-                drive(command, model, wheels, sensing.wheel_dead_zone, battery);
+            let robot = &parameters.robots[index];
+            let model = &robot.model;
+            if inexact {
+                drive(command, robot, wheels, sensing.wheel_dead_zone, battery);
             }
             if model.mouth.is_some() {
                 let [.., kick, chip, dribbler] = &mut command[..model.command_columns().len()]
@@ -113,8 +99,11 @@ impl Actuators {
                     *dribbler = 0.0;
                 }
                 let noise = draws.normal(sensing.kick_speed_noise);
-                self.kick_gains[index] = battery * (1.0 + noise).max(0.0);
-                self.kick_directions[index] = draws.normal(sensing.kick_direction_noise);
+                let angle = draws.normal(sensing.kick_direction_noise);
+                self.kickers[index] = Kicker {
+                    gain: battery * (1.0 + noise).max(0.0),
+                    direction: rotated(Vector::X, angle),
+                };
             }
         }
     }
@@ -126,15 +115,29 @@ impl Actuators {
 
     /// Errors of a robot's kicker.
     pub(super) fn kicker(&self, robot: usize) -> Kicker {
-        let direction = rotated(Vector::X, self.kick_directions[robot]);
-        Kicker { gain: self.kick_gains[robot], direction }
+        self.kickers[robot]
     }
+}
+
+/// Whether full batteries are all that robots need to obey exactly.
+fn obeys_exactly(sensing: &Sensing) -> bool {
+    let Sensing { wheel_error, wheel_dead_zone, kick_failures, dribbler_failures, .. } = *sensing;
+    let Sensing { kick_speed_noise, kick_direction_noise, .. } = *sensing;
+    let wheels = [wheel_error, wheel_dead_zone];
+    let kickers = [kick_failures, dribbler_failures, kick_speed_noise, kick_direction_noise];
+    wheels.iter().chain(&kickers).all(|number| *number == 0.0)
 }
 
 /// Changes the part of a command that the wheels follow: the speed of each wheel is 0 in the dead zone (m/s
 /// at the rim), wrong by its factor, and at most what the battery allows.
-fn drive(command: &mut [f32], model: &RobotModel, wheels: &Wheels, dead_zone: f32, battery: f32) {
-    match (&model.drive, &wheels.map) {
+fn drive(
+    command: &mut [f32],
+    robot: &RobotParameters,
+    wheels: &Wheels,
+    dead_zone: f32,
+    battery: f32,
+) {
+    match (&robot.model.drive, &robot.wheel_map) {
         (Drive::Differential(drive), _) => {
             let limit = battery * drive.max_wheel_speed;
             wheels.turn(&mut command[..2], dead_zone / drive.wheel_radius, limit);

@@ -15,10 +15,11 @@ use crate::geometry::motion::Motion;
 use crate::geometry::motion_block::MotionBlock;
 use crate::models::config::SimConfig;
 use crate::models::sensing::Sensing;
-use crate::senses::detections::Detections;
+use crate::senses::detections::Frame;
 use crate::senses::held::{Beams, Held};
 use crate::senses::resting::Resting;
-use crate::senses::tracker::{Filters, LOST, Robot};
+use crate::senses::track::LOST;
+use crate::senses::tracker::{Filters, Tracks};
 
 /// Accelerations that the filters count with, m/s² and rad/s²: errors of models, and pushes below those that
 /// show in a single frame.
@@ -57,7 +58,7 @@ impl<'a> Orders<'a> {
 /// A frame, and the rest that a tracker knows of it.
 #[derive(Clone, Copy)]
 pub(super) struct Tracked<'a> {
-    pub(super) frame: &'a Detections,
+    pub(super) frame: Frame<'a>,
     /// The ball, if the tracker takes a robot to hold it.
     pub(super) held: Option<Held>,
     /// Break beams; `None` where robots report nothing.
@@ -68,7 +69,7 @@ pub(super) struct Tracked<'a> {
 /// Estimates of all robots at the instant of the last frame; each is that of a team that knows its commands.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct DrivenRobots {
-    robots: Vec<Robot>,
+    tracks: Tracks,
     /// State of the wheels, by block.
     wheels: Vec<DriveState>,
     /// The ball, if a robot holds it.
@@ -86,18 +87,17 @@ impl DrivenRobots {
         let filters = Filters::of(sensing, period, ACCELERATION, ANGULAR_ACCELERATION);
         let wheels = vec![DriveState::AT_REST; blocks_of(robots)];
         let resting = Resting::new(robots, period);
-        let robots = vec![Robot::new(); robots];
-        Self { robots, wheels, held: None, resting, filters, time: 0.0 }
+        Self { tracks: Tracks::new(robots), wheels, held: None, resting, filters, time: 0.0 }
     }
 
     /// Begins anew with the bodies of a first frame, which have been watched before.
-    pub(super) fn begin(&mut self, frame: &Detections) {
+    pub(super) fn begin(&mut self, frame: Frame<'_>) {
         self.time = frame.time;
         self.held = self.held.filter(|_| frame.balls.is_empty());
         self.resting.begin(frame);
-        for seen in &frame.robots {
-            self.robots[seen.robot].begin(&seen.motion);
-            let (block, lane) = place_of(robot(seen.robot));
+        self.tracks.begin(frame);
+        for (index, _) in frame.moving_robots() {
+            let (block, lane) = place_of(robot(index));
             self.wheels[block].clear(lane);
         }
     }
@@ -112,9 +112,7 @@ impl DrivenRobots {
         }
         self.drive(elapsed, orders);
         self.time = frame.time;
-        for seen in &frame.robots {
-            self.robots[seen.robot].update(&seen.motion, &self.filters);
-        }
+        self.tracks.update(frame, &self.filters);
         self.resting.take(frame, elapsed, sensing);
         let known = self.held;
         self.held = beams.zip(held).map(|(beams, held)| {
@@ -122,8 +120,8 @@ impl DrivenRobots {
             let Some(mut own) = known.filter(|known| known.robot == held.robot) else {
                 return held;
             };
-            let robot = self.robots[own.robot].motion();
-            if own.take(&frame.balls, &robot, beams, sensing, elapsed) { own } else { held }
+            let holder = self.tracks.motion(robot(own.robot));
+            if own.take(frame.balls, &holder, beams, sensing, elapsed) { own } else { held }
         });
     }
 
@@ -138,17 +136,14 @@ impl DrivenRobots {
     }
 
     /// The estimated motion of a robot.
-    pub(super) fn motion(&self, robot: usize) -> Motion {
-        self.robots[robot].motion()
+    pub(super) fn motion(&self, index: usize) -> Motion {
+        self.tracks.motion(robot(index))
     }
 
     /// Lets all robots drive for a time, s. Nobody knows where robots are that no frame has shown for long.
     fn drive(&mut self, elapsed: f32, orders: Orders<'_>) {
-        let mut motions = vec![MotionBlock::AT_REST; self.wheels.len()];
-        for (index, known) in self.robots.iter().enumerate() {
-            let (block, lane) = place_of(robot(index));
-            motions[block].set(lane, &known.motion());
-        }
+        let blocks = &mut self.tracks.blocks;
+        let mut motions: Vec<MotionBlock> = blocks.iter().map(|block| *block.motions()).collect();
         let mut drives = Drives { orders, commands: Vec::new(), acting: None };
         let (time, mut passed) = (elapsed.min(LOST), 0.0);
         while time - passed > ROUNDING * orders.tick {
@@ -157,9 +152,8 @@ impl DrivenRobots {
             drives.follow(&mut motions, &mut self.wheels, now, part);
             passed += part;
         }
-        for (index, known) in self.robots.iter_mut().enumerate() {
-            let (block, lane) = place_of(robot(index));
-            known.go_on(elapsed, &motions[block].get(lane));
+        for (known, motion) in blocks.iter_mut().zip(&motions) {
+            known.go_on(elapsed, motion);
         }
     }
 }

@@ -12,8 +12,8 @@ use crate::geometry::motion::Motion;
 use crate::math::Vector;
 use crate::models::sensing::Sensing;
 use crate::senses::detections::DetectedBall;
+use crate::senses::filter::Parts;
 use crate::senses::noise::Noise;
-use crate::senses::track::Parts;
 
 /// Acceleration of a held ball in the mouth that its filter counts with, m/s²: it slips along the dribbler when the
 /// robot turns.

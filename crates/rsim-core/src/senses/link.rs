@@ -1,7 +1,5 @@
 //! The link to the robots: commands that arrive late, some of them never.
 
-use std::collections::VecDeque;
-
 use serde::{Deserialize, Serialize};
 
 use crate::models::sensing::Sensing;
@@ -16,13 +14,14 @@ struct Sent {
     number: u64,
     /// Robots that do not hear them, one bit each.
     lost: u64,
-    commands: Vec<f32>,
 }
 
 /// The link to all robots of a match.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Link {
-    under_way: VecDeque<Sent>,
+    under_way: Vec<Sent>,
+    /// Commands of those on their way, one after the other.
+    queued: Vec<f32>,
     /// Number of control steps that sent commands.
     number: u64,
     /// Robots that have stopped after a time without commands, one bit each.
@@ -31,11 +30,10 @@ pub(super) struct Link {
     heard: Vec<u64>,
     /// Tick before which no robot that is not stopped heard its last command: its time-out is not over earlier.
     waiting_since: u64,
+    /// Tick before which nothing arrives and no time-out is over.
+    idle_until: u64,
     /// Last command that each robot heard.
     commands: Vec<f32>,
-    /// Memory for commands to come.
-    #[serde(skip)]
-    spare: Vec<Vec<f32>>,
 }
 
 /// Robots for which something changed, one bit each, and the control step whose command it was.
@@ -49,13 +47,14 @@ impl Link {
     /// A link to `robots` robots that have heard nothing yet.
     pub(super) fn new(robots: usize, columns: usize) -> Self {
         Self {
-            under_way: VecDeque::new(),
+            under_way: Vec::new(),
+            queued: Vec::new(),
             number: 0,
             stopped: 0,
             heard: vec![0; robots],
             waiting_since: 0,
+            idle_until: 0,
             commands: vec![0.0; robots * columns],
-            spare: Vec::new(),
         }
     }
 
@@ -73,47 +72,55 @@ impl Link {
             ticks = (ticks + draws.deviation() * sensing.command_jitter / tick).max(0.0);
         }
         // A robot listens once a tick, at a time of its own: the mean is the delay that was asked for.
-        if (ticks - ticks.round()).abs() > 1e-4 {
-            ticks = (ticks + draws.uniform()).floor();
-        }
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 2 s")]
-        let due = now + ticks.round() as u64;
-        let due = self.under_way.back().map_or(due, |last| due.max(last.due));
+        let whole = |ticks: f32| ticks as u32;
+        #[expect(clippy::cast_precision_loss, reason = "0 to 2 s")]
+        let nearest = whole(ticks + 0.5) as f32;
+        ticks = if (ticks - nearest).abs() > 1e-4 { ticks + draws.uniform() } else { nearest };
+        let due = now + u64::from(whole(ticks));
+        let due = self.under_way.last().map_or(due, |last| due.max(last.due));
         let lost = draws.which(sensing.command_loss, self.heard.len());
-        let mut copied = self.spare.pop().unwrap_or_default();
-        copied.clear();
-        copied.extend_from_slice(commands);
-        let sent = Sent { due, number: self.number, lost, commands: copied };
+        self.under_way.push(Sent { due, number: self.number, lost });
+        self.idle_until = self.idle_until.min(due);
+        self.queued.extend_from_slice(commands);
         self.number += 1;
-        self.under_way.push_back(sent);
     }
 
     /// Takes in what has arrived at the start of tick `now`, and stops robots that have waited for `timeout`
     /// ticks. Returns what changed.
     pub(super) fn receive(&mut self, now: u64, timeout: Option<u64>) -> Option<Change> {
+        if now < self.idle_until {
+            return None;
+        }
         let mut change: Option<Change> = None;
-        while self.under_way.front().is_some_and(|sent| sent.due <= now) {
-            let Some(sent) = self.under_way.pop_front() else { break };
-            let columns = self.columns();
-            for (robot, heard) in self.heard.iter_mut().enumerate() {
-                if sent.lost >> robot & 1 == 0 {
-                    *heard = now;
-                    let own = robot * columns..(robot + 1) * columns;
-                    self.commands[own.clone()].copy_from_slice(&sent.commands[own]);
-                }
-            }
-            self.spare.push(sent.commands);
-            let robots = !sent.lost;
-            self.stopped &= sent.lost;
-            change = Some(Change {
-                robots: robots | change.map_or(0, |change| change.robots),
-                number: sent.number,
-            });
+        let arrived = self.under_way.iter().take_while(|sent| sent.due <= now).count();
+        for nth in 0..arrived {
+            let Sent { number, lost, .. } = self.under_way[nth];
+            self.hear(now, lost, nth);
+            self.stopped &= lost;
+            let robots = !lost | change.map_or(0, |change| change.robots);
+            change = Some(Change { robots, number });
         }
+        if arrived > 0 {
+            self.under_way.drain(..arrived);
+            self.queued.drain(..arrived * self.commands.len());
+        }
+        self.idle_until = self.under_way.first().map_or(u64::MAX, |next| next.due);
         let Some(timeout) = timeout else { return change };
-        if now - self.waiting_since < timeout {
-            return change;
+        if now - self.waiting_since >= timeout {
+            change = self.stop_waiting(now, timeout, change);
         }
+        self.idle_until = self.idle_until.min(self.waiting_since + timeout);
+        change
+    }
+
+    /// Stops robots that have waited for `timeout` ticks. Returns what changed, with the earlier `change`.
+    fn stop_waiting(
+        &mut self,
+        now: u64,
+        timeout: u64,
+        mut change: Option<Change>,
+    ) -> Option<Change> {
         for robot in 0..self.heard.len() {
             if now - self.heard[robot] >= timeout && self.stopped >> robot & 1 == 0 {
                 self.stopped |= 1 << robot;
@@ -128,6 +135,24 @@ impl Link {
             self.heard.iter().enumerate().filter(|(robot, _)| self.stopped >> robot & 1 == 0);
         self.waiting_since = going.map(|(_, heard)| *heard).min().unwrap_or(now);
         change
+    }
+
+    /// Lets robots whose commands are not `lost` hear the `nth` of those on their way.
+    fn hear(&mut self, now: u64, lost: u64, nth: usize) {
+        let (columns, size) = (self.columns(), self.commands.len());
+        let sent = &self.queued[nth * size..][..size];
+        if lost == 0 {
+            self.heard.fill(now);
+            self.commands.copy_from_slice(sent);
+            return;
+        }
+        for (robot, heard) in self.heard.iter_mut().enumerate() {
+            if lost >> robot & 1 == 0 {
+                *heard = now;
+                let own = robot * columns..(robot + 1) * columns;
+                self.commands[own.clone()].copy_from_slice(&sent[own]);
+            }
+        }
     }
 
     /// The commands that the robots obey, a row for each.

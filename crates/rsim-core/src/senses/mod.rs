@@ -8,6 +8,7 @@ mod actuators;
 mod cameras;
 pub(crate) mod detections;
 mod driven;
+mod filter;
 mod held;
 mod link;
 mod noise;
@@ -20,6 +21,8 @@ mod tracker;
 mod visibility;
 mod vision;
 pub(crate) mod vision_tracker;
+
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
@@ -45,7 +48,8 @@ const SECOND_TEAM: u64 = 0x9e37_79b9_7f4a_7c15;
 /// Senses and commands of a match.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Senses {
-    sensing: Sensing,
+    /// Those of the configuration are in one place for all matches.
+    sensing: Arc<Sensing>,
     /// Key of all random numbers.
     key: u64,
     /// Physics ticks since the senses began.
@@ -73,7 +77,7 @@ pub(crate) struct Watched<'a> {
 
 impl Senses {
     /// The senses of a match that begins in this state. `key` makes its errors its own.
-    pub(crate) fn new(sensing: Sensing, key: u64, watched: Watched<'_>) -> Self {
+    pub(crate) fn new(sensing: Arc<Sensing>, key: u64, watched: Watched<'_>) -> Self {
         let (robots, columns) = (watched.config.n_robots(), watched.config.command_columns());
         let mut draws = Draws::of(key, Purpose::Episode, 0);
         let mut visions = vec![Vision::new(watched.config, &sensing, key, &mut draws)];
@@ -84,9 +88,9 @@ impl Senses {
         }
         let mut senses = Self {
             visions,
-            reports: Reports::new(robots, &sensing, &mut draws),
+            reports: Reports::new(watched.parameters, &sensing, &mut draws),
             link: Link::new(robots, columns),
-            actuators: Actuators::new(watched.parameters, columns, &sensing, &mut draws),
+            actuators: Actuators::new(robots, columns, &sensing, &mut draws),
             sent: CommandLog::default(),
             timeout: timeout(&sensing, watched.config.tick),
             sensing,
@@ -129,7 +133,7 @@ impl Senses {
         };
         #[expect(clippy::cast_possible_truncation, reason = "battery time needs no more digits")]
         let seconds = self.now(watched.config) as f32;
-        let random = (&self.sensing, self.key);
+        let random = (&*self.sensing, self.key);
         self.actuators.obey(
             self.link.commands(),
             change.number,
@@ -184,7 +188,7 @@ impl Senses {
         row::write(
             &self.vision(knowledge).tracker,
             self.reports.cut,
-            &self.reports.motions,
+            |index| self.reports.own_motion(index),
             state,
             out,
         );
@@ -200,7 +204,7 @@ impl Senses {
         out: &mut [f32],
     ) {
         let vision = self.vision(knowledge);
-        row::write(&vision.tracker, self.reports.cut, &[], state, out);
+        row::write(&vision.tracker, self.reports.cut, |_| None, state, out);
         if let Some(driven) = &vision.driven {
             row::write_driven(driven, robots, !state.absent, out);
         }

@@ -2,6 +2,7 @@
 
 use std::sync::LazyLock;
 
+use crate::blocks::{Lanes, set_bits};
 use crate::math::Vector;
 use crate::streams::{STRIDE, mixed, unit};
 
@@ -88,6 +89,26 @@ impl Draws {
         #[expect(clippy::cast_possible_truncation, reason = "the lower half")]
         let lower = word as u32;
         deviation * Vector::new(self.shaped(upper(word)), self.shaped(lower))
+    }
+
+    /// Numbers of a normal distribution with this standard deviation for the bodies of a block. Nothing is drawn
+    /// for 0.
+    pub(super) fn normal_lanes(&mut self, deviation: f32) -> Lanes {
+        if deviation <= 0.0 {
+            return Lanes::ZERO;
+        }
+        let [first, second] = [self.next(), self.next()];
+        #[expect(clippy::cast_possible_truncation, reason = "the lower halves")]
+        let bits = [upper(first), first as u32, upper(second), second as u32];
+        let layers = bits.map(|bits| (bits & 127) as usize);
+        let x = Lanes::from(bits.map(position)) * Lanes::from(layers.map(|at| self.layers.x[at]));
+        let inner = Lanes::from(layers.map(|layer| self.layers.x[layer + 1]));
+        let beyond = !(x.simd_lt(inner) & (-x).simd_lt(inner));
+        let mut numbers = x.to_array();
+        for lane in set_bits(beyond.to_bitmask().into()) {
+            numbers[lane] = self.outside(layers[lane], numbers[lane]);
+        }
+        Lanes::splat(deviation) * Lanes::from(numbers)
     }
 
     /// A number of the standard normal distribution.
@@ -185,7 +206,10 @@ mod tests {
         let mut draws = Draws::of(1, Purpose::Frame, 0);
         let count = 400_000;
         let mut numbers: Vec<f64> = (0..count / 2).map(|_| draws.normal(1.0).into()).collect();
-        numbers.extend((0..count / 4).flat_map(|_| draws.normals(1.0).to_array().map(f64::from)));
+        numbers.extend((0..count / 8).flat_map(|_| draws.normals(1.0).to_array().map(f64::from)));
+        numbers.extend(
+            (0..count / 16).flat_map(|_| draws.normal_lanes(1.0).to_array().map(f64::from)),
+        );
         let mean_of =
             |f: &dyn Fn(f64) -> f64| numbers.iter().map(|&x| f(x)).sum::<f64>() / f64::from(count);
         assert!(mean_of(&|x| x).abs() < 0.005);

@@ -1,77 +1,89 @@
 //! Robots' own sensors: break beams, odometry and gyroscopes, and their reports on the way.
 
-use std::collections::VecDeque;
-
 use serde::{Deserialize, Serialize};
 
 use crate::ball::mouth::beam_is_cut;
-use crate::blocks::{BALL, robot, set_bits};
+use crate::blocks::{
+    BALL, LANES, Lanes, VectorLanes, blocks_of, mask_of, place_of, robot, set_bits,
+};
 use crate::body_parameters::BodyParameters;
-use crate::geometry::motion::Motion;
+use crate::geometry::motion_block::MotionBlock;
 use crate::math::Vector;
 use crate::models::sensing::Sensing;
 use crate::senses::cameras::ROUNDING;
 use crate::senses::random::{Draws, Purpose};
 use crate::state::State;
 
-/// Motion that a robot measures itself.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub(super) struct OwnMotion {
-    /// Velocity forward and to the left, m/s.
-    pub(super) velocity: Vector,
+/// Motions that the robots of a block measure themselves.
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+struct OwnMotions {
+    /// Velocities forward and to the left, m/s.
+    velocity: VectorLanes,
     /// rad/s.
-    pub(super) angular_velocity: f32,
+    angular_velocity: Lanes,
+}
+
+impl OwnMotions {
+    /// The motions of a block in the robots' own frames.
+    fn of(block: &MotionBlock) -> Self {
+        let velocity = block.velocity.seen_from(block.heading);
+        Self { velocity, angular_velocity: block.angular_velocity }
+    }
 }
 
 /// Reports of all robots at the end of a control step.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 struct Report {
     /// Time of arrival, s.
     due: f64,
     /// Robots whose beams are cut, and robots whose reports are lost, one bit each.
     cut: u64,
     lost: u64,
-    /// Own motions of all robots; empty without odometry.
-    motions: Vec<OwnMotion>,
 }
 
 /// Known values of the robots' own sensors, and reports on their way.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Reports {
-    under_way: VecDeque<Report>,
+    under_way: Vec<Report>,
+    /// Own motions of all blocks in the reports on their way, one after the other; empty without odometry.
+    queued: Vec<OwnMotions>,
     /// Number of control steps that reported.
     number: u64,
-    /// Errors of the gyroscopes' zeros, rad/s.
-    gyroscope_errors: Vec<f32>,
-    /// Robots whose beams are known to be cut, one bit each.
+    /// Errors of the gyroscopes' zeros by block, rad/s; empty without odometry.
+    gyroscope_errors: Vec<Lanes>,
+    /// Robots with a mouth, and those whose beams are known to be cut, one bit each.
+    mouths: u64,
     pub(super) cut: u64,
-    /// Known motions; empty without odometry.
-    pub(super) motions: Vec<OwnMotion>,
-    /// Memory for reports to come.
-    #[serde(skip)]
-    spare: Vec<Vec<OwnMotion>>,
+    /// Known motions by block; empty without odometry.
+    motions: Vec<OwnMotions>,
 }
 
 impl Reports {
-    /// Before the first report of `robots` robots.
-    pub(super) fn new(robots: usize, sensing: &Sensing, draws: &mut Draws) -> Self {
-        let count = if sensing.odometry >= 0.5 { robots } else { 0 };
+    /// Before the first report.
+    pub(super) fn new(parameters: &BodyParameters, sensing: &Sensing, draws: &mut Draws) -> Self {
+        let robots = parameters.robots.len();
+        let mouths = parameters.robots.iter().enumerate();
+        let mouths = mouths.filter(|(_, robot)| robot.model.mouth.is_some());
+        let blocks = if sensing.odometry >= 0.5 { blocks_of(robots) } else { 0 };
+        let error = |_| draws.normal_lanes(sensing.gyroscope_error);
         Self {
-            under_way: VecDeque::new(),
+            under_way: Vec::new(),
+            queued: Vec::new(),
             number: 0,
-            gyroscope_errors: (0..count).map(|_| draws.normal(sensing.gyroscope_error)).collect(),
+            gyroscope_errors: (0..blocks).map(error).collect(),
+            mouths: mouths.fold(0, |all, (index, _)| all | 1 << index),
             cut: 0,
-            motions: vec![OwnMotion::default(); count],
-            spare: Vec::new(),
+            motions: vec![OwnMotions::default(); blocks],
         }
     }
 
     /// Begins anew with a state that has lasted for some time.
     pub(super) fn begin(&mut self, state: &State, parameters: &BodyParameters) {
         self.under_way.clear();
-        self.cut = cut_beams(state, parameters);
-        for (index, motion) in self.motions.iter_mut().enumerate() {
-            *motion = own_motion(&state.bodies.motion(robot(index)));
+        self.queued.clear();
+        self.cut = self.cut_beams(state, parameters);
+        for (motions, block) in self.motions.iter_mut().zip(&state.bodies.blocks) {
+            *motions = OwnMotions::of(&block.motion);
         }
     }
 
@@ -83,58 +95,63 @@ impl Reports {
         state: &State,
         parameters: &BodyParameters,
     ) {
+        if self.mouths == 0 && self.motions.is_empty() {
+            return;
+        }
         let mut draws = Draws::of(key, Purpose::Report, self.number);
         self.number += 1;
-        let (robots, cut) = (parameters.robots.len(), cut_beams(state, parameters));
+        let (robots, cut) = (parameters.robots.len(), self.cut_beams(state, parameters));
         let missed = draws.which(sensing.beam_misses, robots) & cut;
-        let alarms = set_bits(draws.which(sensing.beam_false_alarms, robots) & !cut)
-            .filter(|&index| parameters.robots[index].model.mouth.is_some())
-            .fold(0, |all, index| all | 1 << index);
-        let mut motions = self.spare.pop().unwrap_or_default();
-        motions.clear();
-        for (index, error) in self.gyroscope_errors.iter().enumerate() {
-            let mut motion = own_motion(&state.bodies.motion(robot(index)));
-            motion.velocity += draws.normals(sensing.odometry_noise);
-            motion.angular_velocity += error + draws.normal(sensing.gyroscope_noise);
-            motions.push(motion);
+        let alarms = draws.which(sensing.beam_false_alarms, robots) & !cut & self.mouths;
+        for (error, block) in self.gyroscope_errors.iter().zip(&state.bodies.blocks) {
+            let mut motions = OwnMotions::of(&block.motion);
+            let [x, y] = [(); 2].map(|()| draws.normal_lanes(sensing.odometry_noise));
+            motions.velocity += VectorLanes { x, y };
+            motions.angular_velocity += *error + draws.normal_lanes(sensing.gyroscope_noise);
+            self.queued.push(motions);
         }
-        self.under_way.push_back(Report {
+        self.under_way.push(Report {
             due: now + f64::from(sensing.feedback_delay),
             cut: cut & !missed | alarms,
             lost: draws.which(sensing.feedback_loss, robots),
-            motions,
         });
     }
 
     /// Takes in the reports that have arrived at `now`, s.
     pub(super) fn receive(&mut self, now: f64) {
-        while self.under_way.front().is_some_and(|report| report.due <= now + ROUNDING) {
-            let Some(report) = self.under_way.pop_front() else { return };
-            self.cut = self.cut & report.lost | report.cut & !report.lost;
-            for (index, motion) in report.motions.iter().enumerate() {
-                if report.lost >> index & 1 == 0 {
-                    self.motions[index] = *motion;
-                }
+        let has_come = |report: &&Report| report.due <= now + ROUNDING;
+        let arrived = self.under_way.iter().take_while(has_come).count();
+        let blocks = self.motions.len();
+        for (nth, Report { cut, lost, .. }) in self.under_way.drain(..arrived).enumerate() {
+            self.cut = self.cut & lost | cut & !lost;
+            let reported = self.queued[nth * blocks..].iter().zip(&mut self.motions);
+            for (block, (new, known)) in reported.enumerate() {
+                let is_lost = |lane: usize| lost << robot(0) >> (block * LANES + lane) & 1 == 1;
+                let lost = mask_of(is_lost);
+                known.velocity = known.velocity.where_else(lost, new.velocity);
+                known.angular_velocity =
+                    lost.bitselect(known.angular_velocity, new.angular_velocity);
             }
-            self.spare.push(report.motions);
         }
+        self.queued.drain(..arrived * blocks);
     }
-}
 
-/// Robots whose beams the ball cuts, one bit each.
-fn cut_beams(state: &State, parameters: &BodyParameters) -> u64 {
-    let ball = state.bodies.motion(BALL).position;
-    let is_cut = |index: usize| {
-        let model = &parameters.robots[index].model;
-        let motion = state.bodies.motion(robot(index));
-        model.mouth.is_some() && beam_is_cut(model, &motion, &parameters.ball, ball, &state.ball)
-    };
-    (0..parameters.robots.len()).fold(0, |all, index| all | u64::from(is_cut(index)) << index)
-}
+    /// Velocity forward and to the left (m/s) and angular velocity (rad/s) that a robot reports; `None` without
+    /// odometry.
+    pub(super) fn own_motion(&self, index: usize) -> Option<(Vector, f32)> {
+        let (block, lane) = place_of(robot(index));
+        let OwnMotions { velocity, angular_velocity } = self.motions.get(block)?;
+        Some((velocity.get(lane), angular_velocity.as_array()[lane]))
+    }
 
-/// A motion in the robot's own frame.
-fn own_motion(motion: &Motion) -> OwnMotion {
-    let Motion { heading, velocity, angular_velocity, .. } = *motion;
-    let velocity = Vector::new(velocity.dot(heading), velocity.dot(heading.perp()));
-    OwnMotion { velocity, angular_velocity }
+    /// Robots whose beams the ball cuts, one bit each.
+    fn cut_beams(&self, state: &State, parameters: &BodyParameters) -> u64 {
+        let ball = state.bodies.motion(BALL).position;
+        let is_cut = |index: &usize| {
+            let motion = state.bodies.motion(robot(*index));
+            let model = &parameters.robots[*index].model;
+            beam_is_cut(model, &motion, &parameters.ball, ball, &state.ball)
+        };
+        set_bits(self.mouths).filter(is_cut).fold(0, |all, index| all | 1 << index)
+    }
 }

@@ -9,9 +9,10 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::motion::Motion;
 use crate::math::Vector;
 use crate::models::sensing::Sensing;
-use crate::senses::detections::Detections;
+use crate::senses::detections::Frame;
+use crate::senses::filter::GATE;
 use crate::senses::noise::Noise;
-use crate::senses::track::{GATE, unit};
+use crate::senses::track::unit;
 
 /// Number of detections in a row around one place after which a robot rests: .18 s at 66 frames a second.
 const SETTLED: u8 = 12;
@@ -80,23 +81,23 @@ impl Resting {
     }
 
     /// Forgets where the robots of a frame were, as they were moved by hand.
-    pub(super) fn begin(&mut self, frame: &Detections) {
-        for seen in &frame.robots {
-            self.places[seen.robot] = Place::UNSEEN;
+    pub(super) fn begin(&mut self, frame: Frame<'_>) {
+        for (index, _) in frame.moving_robots() {
+            self.places[index] = Place::UNSEEN;
         }
     }
 
     /// Takes in a frame, `elapsed` (s) after the last. Of detections of a robot by several cameras one counts, and of
     /// copies of a frame none.
-    pub(super) fn take(&mut self, frame: &Detections, elapsed: f32, sensing: &Sensing) {
+    pub(super) fn take(&mut self, frame: Frame<'_>, elapsed: f32, sensing: &Sensing) {
         let noise = Noise::of(sensing);
         for place in &mut self.places {
             place.age += elapsed;
         }
-        for seen in &frame.robots {
-            let place = &mut self.places[seen.robot];
+        for (index, Motion { position, heading, .. }) in frame.moving_robots() {
+            let place = &mut self.places[index];
             if place.age >= self.period / 2.0 {
-                place.take(seen.motion.position, unit(seen.motion.heading), noise);
+                place.take(position, unit(heading), noise);
             }
         }
     }

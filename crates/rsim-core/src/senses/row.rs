@@ -1,11 +1,10 @@
 //! Rows of what robots know, in the columns of state rows.
 
-use crate::blocks::{robot, set_bits};
+use crate::blocks::{BALL, robot, set_bits};
 use crate::columns::{ABSENT_COLUMN, BALL_COLUMNS, ROBOT_COLUMNS};
 use crate::geometry::motion::Motion;
 use crate::math::Vector;
 use crate::senses::driven::DrivenRobots;
-use crate::senses::reports::OwnMotion;
 use crate::senses::tracker::Tracker;
 use crate::state::State;
 
@@ -14,11 +13,11 @@ const MOTION_COLUMNS: usize = 7;
 
 /// Writes what is known. Nobody senses touches, collisions and lines crossed: these columns are as of a match
 /// that has just begun. Which robots are absent is known. `cut` has a bit for each robot whose beam is cut;
-/// `motions` are the velocities that robots report, empty for those by cameras.
+/// `own` gives velocities that robots report, or `None` for those by cameras.
 pub(super) fn write(
     tracker: &Tracker,
     cut: u64,
-    motions: &[OwnMotion],
+    own: impl Fn(usize) -> Option<(Vector, f32)>,
     state: &State,
     out: &mut [f32],
 ) {
@@ -26,22 +25,21 @@ pub(super) fn write(
         let Motion { position, heading, .. } = state.bodies.motion(robot(index));
         state.is_absent(index).then_some((position, heading))
     };
-    write_known(tracker, cut, motions, absent, out);
+    write_known(tracker, cut, own, absent, out);
 }
 
 /// The same with position and heading of each robot that is `absent`, by its index.
 pub(super) fn write_known(
     tracker: &Tracker,
     cut: u64,
-    motions: &[OwnMotion],
+    own: impl Fn(usize) -> Option<(Vector, f32)>,
     absent: impl Fn(usize) -> Option<(Vector, Vector)>,
     out: &mut [f32],
 ) {
     let (ball, robots) = out.split_at_mut(BALL_COLUMNS.len());
-    let known = &tracker.ball;
-    let (position, velocity) = (known.track.position, known.track.velocity);
-    let [z, v_z] = known.height;
-    let (spin, no_touch) = (known.spin, -1.0);
+    let Motion { position, velocity, .. } = tracker.motion(BALL);
+    let ([z, v_z], spin) = tracker.ball();
+    let no_touch = -1.0;
     ball.fill(0.0);
     let motion = [position.x, position.y, z, velocity.x, velocity.y, v_z, spin.x, spin.y, spin.z];
     ball[..motion.len()].copy_from_slice(&motion);
@@ -53,12 +51,10 @@ pub(super) fn write_known(
             columns[ABSENT_COLUMN] = 1.0;
             continue;
         }
-        let robot = &tracker.robots[index];
-        let mut motion = robot.motion();
-        if let Some(own) = motions.get(index) {
-            let Vector { x: forward, y: left } = own.velocity;
+        let mut motion = tracker.motion(robot(index));
+        if let Some((Vector { x: forward, y: left }, angular_velocity)) = own(index) {
             motion.velocity = motion.heading * forward + motion.heading.perp() * left;
-            motion.angular_velocity = own.angular_velocity;
+            motion.angular_velocity = angular_velocity;
         }
         columns.fill(0.0);
         write_motion(&motion, columns);

@@ -2,13 +2,15 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::blocks::{BALL, blocks_of, place_of, robot};
 use crate::geometry::motion::Motion;
 use crate::math::{Vec3, Vector};
 use crate::models::sensing::Sensing;
-use crate::senses::detections::{DetectedBall, DetectedRobot, Detections};
+use crate::senses::detections::{BallMotion, DetectedBall, Frame};
+use crate::senses::filter::Filter;
 use crate::senses::held::{Beams, Held};
 use crate::senses::noise::Noise;
-use crate::senses::track::{Filter, HeadingTrack, PositionTrack, unit};
+use crate::senses::track::TrackBlock;
 
 /// Accelerations that the filters count with, m/s² and rad/s²: of a ball that slides (3 m/s²), and of robots
 /// that speed up.
@@ -24,40 +26,70 @@ const MIN_REACH: f32 = 0.1;
 /// Number of frames in a row without the ball where it can be after which it is believed where it is seen.
 const BELIEVED: u8 = 8;
 
-/// Time without a detection after which a body is taken to stand still, s.
-pub(super) const LOST: f32 = 0.3;
-
-/// Estimate of the ball.
+/// Estimate of the ball beside its motion.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub(super) struct Ball {
-    pub(super) track: PositionTrack,
-    pub(super) height: [f32; 2],
-    pub(super) spin: Vec3,
-    /// Time since the last detection, s.
-    unseen: f32,
+struct Ball {
+    /// Height of the lowest point, m, and vertical velocity, m/s.
+    height: [f32; 2],
+    spin: Vec3,
     /// Number of frames in a row whose balls were too far away.
     refused: u8,
     /// The robot in whose mouth it is.
     held: Option<Held>,
 }
 
-/// Estimate of a robot.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
-pub(super) struct Robot {
-    pub(super) track: PositionTrack,
-    pub(super) heading: HeadingTrack,
-    /// Time since the last detection, s.
-    unseen: f32,
-}
-
 /// Estimates of all bodies.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Tracker {
-    pub(super) ball: Ball,
-    pub(super) robots: Vec<Robot>,
+    ball: Ball,
+    tracks: Tracks,
     /// Time of the last frame, s.
     time: f64,
     filters: Filters,
+}
+
+/// Estimated motions of all bodies, by block.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct Tracks {
+    pub(super) blocks: Vec<TrackBlock>,
+}
+
+impl Tracks {
+    /// The ball and `robots` robots, none of which was ever seen.
+    pub(super) fn new(robots: usize) -> Self {
+        Self { blocks: vec![TrackBlock::new(); blocks_of(robots)] }
+    }
+
+    /// The estimated motion of a body.
+    pub(super) fn motion(&self, body: usize) -> Motion {
+        let (block, lane) = place_of(body);
+        self.blocks[block].motion(lane)
+    }
+
+    /// The block of a body and its lane there.
+    fn of(&mut self, body: usize) -> (&mut TrackBlock, usize) {
+        let (block, lane) = place_of(body);
+        (&mut self.blocks[block], lane)
+    }
+
+    /// Begins with the robots of a frame, which have been watched before.
+    pub(super) fn begin(&mut self, frame: Frame<'_>) {
+        for (index, motion) in frame.moving_robots() {
+            let (block, lane) = self.of(robot(index));
+            block.begin(lane, &motion);
+        }
+    }
+
+    /// Takes in detections of robots at an instant to which all estimates have gone on.
+    pub(super) fn update(&mut self, frame: Frame<'_>, filters: &Filters) {
+        for (block, seen) in self.blocks.iter_mut().zip(frame.blocks) {
+            block.update(seen, &filters.robot, &filters.heading);
+        }
+        for seen in frame.again {
+            let (block, lane) = self.of(robot(seen.robot.into()));
+            block.average(lane, seen.position, &filters.robot);
+        }
+    }
 }
 
 /// Filters of the ball, of robots and of headings.
@@ -85,22 +117,20 @@ impl Tracker {
     /// The tracker of `robots` robots for frames of some senses, one each `period` (s), before it has seen
     /// any.
     pub(super) fn new(robots: usize, sensing: &Sensing, period: f32) -> Self {
-        let track = PositionTrack::new(Vector::ZERO, Vector::ZERO);
-        let ball =
-            Ball { track, height: [0.0; 2], spin: Vec3::ZERO, unseen: 0.0, refused: 0, held: None };
+        let ball = Ball { height: [0.0; 2], spin: Vec3::ZERO, refused: 0, held: None };
         let filters = Filters::of(sensing, period, ROBOT_ACCELERATION, ANGULAR_ACCELERATION);
-        Self { ball, robots: vec![Robot::new(); robots], time: 0.0, filters }
+        Self { ball, tracks: Tracks::new(robots), time: 0.0, filters }
     }
 
     /// Begins anew from a first frame, whose bodies have been watched before.
-    pub(super) fn begin(&mut self, frame: &Detections) {
+    pub(super) fn begin(&mut self, frame: Frame<'_>) {
         self.time = frame.time;
-        for ball in &frame.balls {
-            self.ball.begin(ball);
+        for (seen, BallMotion { velocity, v_z, spin }) in frame.moving_balls() {
+            let (block, lane) = self.tracks.of(BALL);
+            block.move_to(lane, seen.position, velocity);
+            self.ball = Ball { height: [seen.z, v_z], spin, refused: 0, held: None };
         }
-        for seen in &frame.robots {
-            self.robots[seen.robot].begin(&seen.motion);
-        }
+        self.tracks.begin(frame);
     }
 
     /// The ball, if a robot holds it.
@@ -113,12 +143,22 @@ impl Tracker {
         self.time
     }
 
+    /// The estimated motion of a body.
+    pub(super) fn motion(&self, body: usize) -> Motion {
+        self.tracks.motion(body)
+    }
+
+    /// Height of the ball's lowest point (m), its vertical velocity (m/s) and its spin (rad/s).
+    pub(super) fn ball(&self) -> ([f32; 2], Vec3) {
+        (self.ball.height, self.ball.spin)
+    }
+
     /// Takes in a frame. One that is older than the last is of no use. `beams` are `None` where robots report
     /// nothing.
     pub(super) fn take(
         &mut self,
         sensing: &Sensing,
-        frame: &Detections,
+        frame: Frame<'_>,
         ball_radius: f32,
         beams: Option<Beams<'_>>,
     ) {
@@ -131,14 +171,12 @@ impl Tracker {
         if sensing.tracker < 0.5 {
             return self.copy(frame);
         }
-        for robot in &mut self.robots {
-            robot.coast(elapsed);
+        for block in &mut self.tracks.blocks {
+            block.coast(elapsed);
         }
-        for seen in &frame.robots {
-            self.robots[seen.robot].update(&seen.motion, &self.filters);
-        }
-        self.take_ball(sensing, &frame.balls, elapsed, beams);
-        let velocity = self.ball.track.velocity;
+        self.tracks.update(frame, &self.filters);
+        self.take_ball(sensing, frame.balls, elapsed, beams);
+        let velocity = self.tracks.motion(BALL).velocity;
         self.ball.spin = (velocity.perp() / ball_radius).extend(0.0);
     }
 
@@ -150,144 +188,81 @@ impl Tracker {
         elapsed: f32,
         beams: Option<Beams<'_>>,
     ) {
-        let (ball, robots) = (&mut self.ball, &self.robots);
         let Some(beams) = beams else {
-            ball.held = None;
-            return ball.take(elapsed, balls, &self.filters.ball);
+            self.ball.held = None;
+            return self.see(balls);
         };
-        ball.held = ball.held.and_then(|mut held| {
-            let robot = robots[held.robot].motion();
-            held.take(balls, &robot, beams, sensing, elapsed).then_some(held)
+        let tracks = &self.tracks;
+        self.ball.held = self.ball.held.and_then(|mut held| {
+            let holder = tracks.motion(robot(held.robot));
+            held.take(balls, &holder, beams, sensing, elapsed).then_some(held)
         });
-        if ball.held.is_none() {
-            ball.take(elapsed, balls, &self.filters.ball);
+        if self.ball.held.is_none() {
+            self.see(balls);
             // Where a ball was seen that cannot be this one, neither place is believed yet.
-            if balls.is_empty() || ball.refused == 0 {
-                let motion = |robot: usize| robots[robot].motion();
-                ball.held = Held::find(ball.track.position, motion, beams, sensing);
+            if beams.cut != 0 && (balls.is_empty() || self.ball.refused == 0) {
+                let motion = |index: usize| self.tracks.motion(robot(index));
+                let ball = self.tracks.motion(BALL).position;
+                self.ball.held = Held::find(ball, motion, beams, sensing);
             }
         }
-        if let Some(held) = ball.held {
-            let (position, velocity) = held.motion(&robots[held.robot].motion());
-            ball.track = PositionTrack::new(position, velocity);
-            (ball.height, ball.unseen, ball.refused) = ([0.0; 2], 0.0, 0);
+        if let Some(held) = self.ball.held {
+            let (position, velocity) = held.motion(&self.tracks.motion(robot(held.robot)));
+            let (block, lane) = self.tracks.of(BALL);
+            block.move_to(lane, position, velocity);
+            (self.ball.height, self.ball.refused) = ([0.0; 2], 0);
+        }
+    }
+
+    /// Takes in the balls of a frame, of which some may be ghosts, for a ball that nobody holds.
+    fn see(&mut self, balls: &[DetectedBall]) {
+        self.ball.height = [0.0; 2];
+        let (filter, ball) = (&self.filters.ball, &mut self.ball);
+        let (block, lane) = self.tracks.of(BALL);
+        let predicted = *block;
+        let is_expected = |seen: &&DetectedBall| predicted.expects(lane, seen.position, filter);
+        let mut expected = balls.iter().filter(is_expected).peekable();
+        if expected.peek().is_some() {
+            for seen in expected {
+                update_ball(block, lane, seen.position, filter);
+            }
+            ball.refused = 0;
+            return;
+        }
+        let place = predicted.motion(lane).position;
+        let distance = |seen: &&DetectedBall| (seen.position - place).length_squared();
+        let Some(nearest) = balls.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))) else {
+            return;
+        };
+        let reach = MIN_REACH + MAX_BALL_SPEED * predicted.unseen(lane);
+        if distance(&nearest) <= reach * reach {
+            update_ball(block, lane, nearest.position, filter);
+            ball.refused = 0;
+            return;
+        }
+        ball.refused += 1;
+        if ball.refused >= BELIEVED {
+            block.move_to(lane, nearest.position, Vector::ZERO);
+            ball.refused = 0;
         }
     }
 
     /// Takes detections as they are: of the ball the first one, of a robot the last.
-    fn copy(&mut self, frame: &Detections) {
-        if let Some(seen) = frame.balls.first() {
-            let ball = &mut self.ball;
-            (ball.track.position, ball.track.velocity) = (seen.position, seen.velocity);
-            (ball.height, ball.spin) = (seen.height, seen.spin);
+    fn copy(&mut self, frame: Frame<'_>) {
+        if let Some((seen, BallMotion { velocity, v_z, spin })) = frame.moving_balls().next() {
+            let (block, lane) = self.tracks.of(BALL);
+            block.move_to(lane, seen.position, velocity);
+            (self.ball.height, self.ball.spin) = ([seen.z, v_z], spin);
         }
-        for DetectedRobot { robot, motion } in &frame.robots {
-            let robot = &mut self.robots[*robot];
-            (robot.track.position, robot.track.velocity) = (motion.position, motion.velocity);
-            robot.heading.heading = unit(motion.heading);
-            robot.heading.angular_velocity = motion.angular_velocity;
-        }
+        self.tracks.begin(frame);
     }
 }
 
-impl Ball {
-    fn begin(&mut self, seen: &DetectedBall) {
-        self.track = PositionTrack::new(seen.position, seen.velocity);
-        (self.height, self.spin) = (seen.height, seen.spin);
-        (self.unseen, self.refused, self.held) = (0.0, 0, None);
-    }
-
-    /// Goes on by `elapsed` to a frame with these balls, of which some may be ghosts.
-    fn take(&mut self, elapsed: f32, seen: &[DetectedBall], filter: &Filter) {
-        self.track.predict(elapsed);
-        self.height = [0.0; 2];
-        self.unseen += elapsed;
-        let predicted = self.track;
-        let is_expected = |ball: &DetectedBall| predicted.expects(ball.position, filter);
-        if seen.iter().any(is_expected) {
-            for ball in seen.iter().filter(|ball| is_expected(ball)) {
-                self.update(ball.position, filter);
-            }
-            return;
-        }
-        let distance = |ball: &&DetectedBall| (ball.position - predicted.position).length_squared();
-        let Some(nearest) = seen.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))) else {
-            if self.unseen > LOST {
-                self.track.velocity = Vector::ZERO;
-            }
-            return;
-        };
-        let reach = MIN_REACH + MAX_BALL_SPEED * self.unseen;
-        if distance(&nearest) <= reach * reach {
-            return self.update(nearest.position, filter);
-        }
-        self.refused += 1;
-        if self.refused >= BELIEVED {
-            self.track = PositionTrack::new(nearest.position, Vector::ZERO);
-            (self.unseen, self.refused) = (0.0, 0);
-        }
-    }
-
-    fn update(&mut self, position: Vector, filter: &Filter) {
-        if self.unseen <= 0.0 {
-            return self.track.average(position, filter);
-        }
-        self.track.update(position, filter.rate(self.unseen), filter);
-        (self.unseen, self.refused) = (0.0, 0);
-    }
-}
-
-impl Robot {
-    /// A robot that was never seen.
-    pub(super) fn new() -> Self {
-        let track = PositionTrack::new(Vector::ZERO, Vector::ZERO);
-        Self { track, heading: HeadingTrack::new(Vector::X, 0.0), unseen: 0.0 }
-    }
-
-    /// The estimated motion.
-    pub(super) fn motion(&self) -> Motion {
-        Motion {
-            position: self.track.position,
-            heading: self.heading.heading,
-            velocity: self.track.velocity,
-            angular_velocity: self.heading.angular_velocity,
-        }
-    }
-
-    pub(super) fn begin(&mut self, seen: &Motion) {
-        self.track = PositionTrack::new(seen.position, seen.velocity);
-        self.heading = HeadingTrack::new(seen.heading, seen.angular_velocity);
-        self.unseen = 0.0;
-    }
-
-    /// Goes on by `elapsed`, s, with a constant velocity.
-    fn coast(&mut self, elapsed: f32) {
-        self.unseen += elapsed;
-        if self.unseen > LOST {
-            self.track.velocity = Vector::ZERO;
-            self.heading.angular_velocity = 0.0;
-        }
-        self.track.predict(elapsed);
-        self.heading.predict(elapsed);
-    }
-
-    /// Goes on by `elapsed`, s, to a predicted motion.
-    pub(super) fn go_on(&mut self, elapsed: f32, predicted: &Motion) {
-        self.unseen += elapsed;
-        if self.unseen > LOST {
-            return self.coast(0.0);
-        }
-        (self.track.position, self.track.velocity) = (predicted.position, predicted.velocity);
-        (self.heading.heading, self.heading.angular_velocity) =
-            (predicted.heading, predicted.angular_velocity);
-    }
-
-    pub(super) fn update(&mut self, seen: &Motion, filters: &Filters) {
-        if self.unseen <= 0.0 {
-            return self.track.average(seen.position, &filters.robot);
-        }
-        self.track.update(seen.position, filters.robot.rate(self.unseen), &filters.robot);
-        self.heading.update(seen.heading, filters.heading.rate(self.unseen), &filters.heading);
-        self.unseen = 0.0;
+/// Takes in a ball: the first one at its instant, or that of another camera.
+fn update_ball(block: &mut TrackBlock, lane: usize, position: Vector, filter: &Filter) {
+    if block.unseen(lane) > 0.0 {
+        block.update_position(lane, position, filter);
+    } else {
+        block.average(lane, position, filter);
     }
 }

@@ -19,11 +19,22 @@ pub(super) struct Obstacle {
     pub(super) height: f32,
 }
 
+/// Height of a camera above a body at height `z`, m. Bodies near the height of the camera are taken to be below it by
+/// a tenth.
+fn room_above(camera: f32, z: f32) -> f32 {
+    (camera - z).max(camera / 10.0)
+}
+
 impl Lens {
-    /// The point of the floor where the ray to a body at height `z` meets it. Bodies near the height of
-    /// the camera are taken to be below it by a tenth.
+    /// Bound of the length of shadows of obstacles up to a height on the floor, by the distance of the obstacle from
+    /// the point below a camera; 0 for a camera at height 0.
+    pub(super) fn shadow(camera: f32, highest: f32) -> f32 {
+        if camera > 0.0 { highest / room_above(camera, highest) } else { 0.0 }
+    }
+
+    /// The point of the floor where the ray to a body at height `z` meets it.
     pub(super) fn on_floor(self, position: Vector, z: f32) -> Vector {
-        let room = (self.height - z).max(self.height / 10.0);
+        let room = room_above(self.height, z);
         self.below + (position - self.below) * (self.height / room)
     }
 
@@ -43,7 +54,7 @@ impl Lens {
         if above <= 0.0 {
             return 1.0;
         }
-        let room = (self.height - obstacle.height).max(self.height / 10.0);
+        let room = room_above(self.height, obstacle.height);
         let shadow = (obstacle.position - self.below) * (above / room);
         let offset = position - obstacle.position;
         let along = offset.dot(shadow) / shadow.length_squared().max(f32::MIN_POSITIVE);

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use crate::models::config::SimConfig;
 use crate::models::sensing::Sensing;
 use crate::senses::Watched;
-use crate::senses::cameras::Cameras;
-use crate::senses::detections::{CameraFrame, Detections};
+use crate::senses::cameras::{Cameras, ROUNDING};
+use crate::senses::detections::{CameraFrame, Frames};
 use crate::senses::driven::{DrivenRobots, Orders, Tracked};
 use crate::senses::held::Beams;
 use crate::senses::random::Draws;
@@ -18,11 +18,10 @@ pub(super) struct Vision {
     /// Key of the random numbers.
     pub(super) key: u64,
     cameras: Cameras,
-    /// Frames that arrived in the last control step. The match does not depend on them.
-    arrived: Vec<Detections>,
+    frames: Frames,
     pub(super) tracker: Tracker,
     /// Estimates for forecasts; `None` where nobody forecasts.
-    pub(super) driven: Option<DrivenRobots>,
+    pub(super) driven: Option<Box<DrivenRobots>>,
 }
 
 impl Vision {
@@ -31,11 +30,11 @@ impl Vision {
         let (robots, period) = (config.n_robots(), cameras.period());
         let tracker = Tracker::new(robots, sensing, period);
         let has_driven = sensing.forecast >= 0.5 && sensing.tracker >= 0.5;
-        let driven = has_driven.then(|| DrivenRobots::new(robots, sensing, period));
-        Self { key, cameras, arrived: Vec::new(), tracker, driven }
+        let driven = has_driven.then(|| Box::new(DrivenRobots::new(robots, sensing, period)));
+        Self { key, cameras, frames: Frames::default(), tracker, driven }
     }
 
-    /// Looks at bodies that were placed.
+    /// Looks at bodies that were placed. Frames on their way show where they were before.
     pub(super) fn look(
         &mut self,
         now: f64,
@@ -43,17 +42,19 @@ impl Vision {
         draws: &mut Draws,
         watched: Watched<'_>,
     ) {
-        self.cameras.forget();
-        let frame = self.cameras.look(now, sensing, draws, watched.state, watched.parameters);
-        self.tracker.begin(&frame);
+        self.frames.forget_on_way();
+        let mut first = Frames::default();
+        self.cameras.look(now, sensing, draws, watched, &mut first);
+        let Some(frame) = first.last() else { return };
+        self.tracker.begin(frame);
         if let Some(driven) = &mut self.driven {
-            driven.begin(&frame);
+            driven.begin(frame);
         }
     }
 
     /// Exposes the frames that are due.
     pub(super) fn expose(&mut self, now: f64, sensing: &Sensing, watched: Watched<'_>) {
-        self.cameras.expose(now, (sensing, self.key), watched.state, watched.parameters);
+        self.cameras.expose(now, (sensing, self.key), watched, &mut self.frames);
     }
 
     /// Takes in the frames that have arrived, with the break beams that are known to be cut and the commands that
@@ -65,22 +66,18 @@ impl Vision {
         beams: Beams<'_>,
         orders: Orders<'_>,
     ) {
-        for frame in self.arrived.drain(..) {
-            self.cameras.recycle(frame);
-        }
-        while let Some(frame) = self.cameras.arrived(now) {
-            self.tracker.take(sensing, &frame, beams.parameters.ball.radius, Some(beams));
+        self.frames.begin_step();
+        while let Some(frame) = self.frames.arrive(now + ROUNDING) {
+            self.tracker.take(sensing, frame, beams.parameters.ball.radius, Some(beams));
             if let Some(driven) = &mut self.driven {
                 let held = self.tracker.held();
-                let tracked = Tracked { frame: &frame, held, beams: Some(beams), sensing };
-                driven.take(tracked, orders);
+                driven.take(Tracked { frame, held, beams: Some(beams), sensing }, orders);
             }
-            self.arrived.push(frame);
         }
     }
 
     /// The frames that arrived in the last control step, in the order of their arrival.
     pub(super) fn camera_frames(&self) -> Vec<CameraFrame> {
-        self.arrived.iter().map(Detections::to_camera_frame).collect()
+        self.frames.camera_frames()
     }
 }

@@ -1,14 +1,15 @@
 //! The tracker on its own, for detections of cameras that watch other simulators and real robots.
 
+use crate::blocks::{blocks_of, place_of, robot as body_of};
 use crate::body_parameters::BodyParameters;
 use crate::error::ConfigError;
 use crate::forecast::MAX_FORECAST;
 use crate::forecast::commands::CommandLog;
 use crate::geometry::motion::Motion;
-use crate::math::{Vec3, Vector};
+use crate::math::Vector;
 use crate::models::config::SimConfig;
 use crate::models::sensing::Sensing;
-use crate::senses::detections::{DetectedBall, DetectedRobot, Detections};
+use crate::senses::detections::{DetectedBall, DetectedBlock, DetectedRobot, Frame};
 use crate::senses::driven::{DrivenRobots, Orders, Tracked};
 use crate::senses::held::Beams;
 use crate::senses::row;
@@ -150,26 +151,26 @@ impl VisionTracker {
         if self.time.is_some_and(|last| time < last) {
             return false;
         }
-        let is_known = |seen: &SeenRobot| self.is_in_sight(seen.robot, time);
-        let (known, new): (Vec<SeenRobot>, Vec<SeenRobot>) =
-            robots.iter().copied().partition(is_known);
+        let balls: Vec<DetectedBall> = balls.iter().copied().map(detected_ball).collect();
+        let (known, new): (Vec<&SeenRobot>, Vec<&SeenRobot>) =
+            robots.iter().partition(|seen| self.is_in_sight(seen.robot, time));
+        let (known, new) = (self.detected_robots(&known), self.detected_robots(&new));
         if self.time.is_some() {
-            let balls: &[[f32; 2]] = if self.has_ball { balls } else { &[] };
-            let frame = detections(time, balls, &known);
+            let balls = if self.has_ball { &balls[..] } else { &[] };
+            let frame = Frame::of_positions(time, balls, (&known.0, &known.1));
             // Of robots that were not seen no place is known that the ball could be at.
             let cut = cut.filter(|_| self.has_ball).map(|cut| cut & self.in_sight(time));
             let beams = cut.map(|cut| Beams { cut, parameters: &self.parameters });
-            self.tracker.take(&self.sensing, &frame, self.config.ball.radius, beams);
+            self.tracker.take(&self.sensing, frame, self.config.ball.radius, beams);
             let held = self.tracker.held();
             let orders = Orders::new(&self.sent, &self.config, &self.sensing, &self.parameters);
-            let tracked = Tracked { frame: &frame, held, beams, sensing: &self.sensing };
-            self.driven.take(tracked, orders);
+            self.driven.take(Tracked { frame, held, beams, sensing: &self.sensing }, orders);
         }
         // A body that has just come into sight rests until it is seen again.
         let first = balls.len().min(usize::from(!self.has_ball));
-        let frame = detections(time, &balls[..first], &new);
-        self.tracker.begin(&frame);
-        self.driven.begin(&frame);
+        let frame = Frame::of_positions(time, &balls[..first], (&new.0, &new.1));
+        self.tracker.begin(frame);
+        self.driven.begin(frame);
         self.time = Some(time);
         self.has_ball |= first > 0;
         for seen in robots {
@@ -178,17 +179,37 @@ impl VisionTracker {
         true
     }
 
+    /// Robots that a camera detected: by block the first detection of each, and the others.
+    fn detected_robots(&self, robots: &[&SeenRobot]) -> (Vec<DetectedBlock>, Vec<DetectedRobot>) {
+        let mut blocks = vec![DetectedBlock::NONE; blocks_of(self.robots_seen.len())];
+        let mut again = Vec::new();
+        for seen in robots {
+            #[expect(clippy::cast_possible_truncation, reason = "at most 63 robots")]
+            let robot = seen.robot as u8;
+            let heading = unit(Vector::from(seen.heading));
+            let position = Vector::from(seen.position);
+            let detected = DetectedRobot { position, heading, robot, camera: 0 };
+            let (block, lane) = place_of(body_of(seen.robot));
+            if blocks[block].bodies >> lane & 1 == 0 {
+                blocks[block].set(lane, &detected);
+            } else {
+                again.push(detected);
+            }
+        }
+        (blocks, again)
+    }
+
     /// Writes the state at the last frame, for a reader who knows the commands of `robots`, one bit each, of those that
     /// were sent. Robots that were not seen for half a second are absent, where they were seen last.
     ///
     /// # Panics
     /// If `out` is no row.
     pub fn write_row(&self, robots: u64, out: &mut [f32]) {
-        let absent = |robot: usize| {
-            let track = &self.tracker.robots[robot];
-            (!self.has_robot(robot)).then_some((track.track.position, track.heading.heading))
+        let absent = |index: usize| {
+            let Motion { position, heading, .. } = self.tracker.motion(body_of(index));
+            (!self.has_robot(index)).then_some((position, heading))
         };
-        row::write_known(&self.tracker, 0, &[], absent, out);
+        row::write_known(&self.tracker, 0, |_| None, absent, out);
         if let Some(time) = self.time.filter(|_| self.commanded != 0) {
             let in_sight = self.in_sight(time);
             let known = self.commanded & robots;
@@ -197,21 +218,9 @@ impl VisionTracker {
     }
 }
 
-/// A frame with bodies at rest.
-fn detections(time: f64, balls: &[[f32; 2]], robots: &[SeenRobot]) -> Detections {
-    let mut frame = Detections::default();
-    frame.begin(time, time);
-    let (velocity, height, spin) = (Vector::ZERO, [0.0; 2], Vec3::ZERO);
-    frame.balls.extend(balls.iter().map(|&place| {
-        let position = Vector::from(place);
-        DetectedBall { position, velocity, height, spin }
-    }));
-    frame.robots.extend(robots.iter().map(|seen| {
-        let heading = unit(Vector::from(seen.heading));
-        let motion = Motion::at_rest(Vector::from(seen.position), heading);
-        DetectedRobot { robot: seen.robot, motion }
-    }));
-    frame
+/// A ball that a camera detected.
+fn detected_ball(place: [f32; 2]) -> DetectedBall {
+    DetectedBall { position: Vector::from(place), z: 0.0, camera: 0 }
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 mod placing;
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::bodies::BodyBlock;
 use crate::error::{ConfigError, SnapshotError, StepError};
@@ -198,10 +198,11 @@ impl Batch {
         keys: &[u64],
         numbers: Option<&[f32]>,
     ) -> Result<(), ConfigError> {
-        let Some(sensing) = self.config().sensing.clone() else { return Ok(()) };
+        let Some(first) = self.worlds.first() else { return Ok(()) };
+        let Some(sensing) = first.shared.sensing.clone() else { return Ok(()) };
         let size = sensing.values().len();
         let own = |nth: usize| match numbers {
-            Some(numbers) => sensing.with_values(&numbers[nth * size..][..size]),
+            Some(numbers) => sensing.with_values(&numbers[nth * size..][..size]).map(Arc::new),
             None => Ok(sensing.clone()),
         };
         let all = (0..keys.len()).map(own).collect::<Result<Vec<_>, _>>()?;

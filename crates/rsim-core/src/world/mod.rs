@@ -23,6 +23,7 @@ use crate::error::{ConfigError, PlaceError, StepError};
 use crate::geometry::arena::walls;
 use crate::geometry::free_space::FreeSpace;
 use crate::models::config::SimConfig;
+use crate::models::sensing::Sensing;
 use crate::senses::Senses;
 use crate::state::crossing::Crossing;
 use crate::state::{Setup, State};
@@ -62,6 +63,8 @@ pub struct World {
 /// Constants that all worlds of one configuration share.
 struct Shared {
     setup: Setup,
+    /// Senses of the configuration.
+    sensing: Option<Arc<Sensing>>,
     placement: Placement,
     /// State before any match. A match that starts from it keeps nothing of an earlier one.
     pristine: Box<State>,
@@ -92,9 +95,10 @@ impl World {
             parameters,
             command_columns: config.command_columns(),
         };
-        let shared = Arc::new(Shared { setup, placement, pristine: pristine.clone() });
+        let sensing = config.sensing.clone().map(Arc::new);
+        let shared = Arc::new(Shared { setup, sensing, placement, pristine: pristine.clone() });
         let mut world = Self { shared, state: pristine, senses: None, contact_free_enabled: true };
-        world.set_senses(0, config.sensing.clone());
+        world.set_senses(0, world.shared.sensing.clone());
         Ok(world)
     }
 
@@ -120,7 +124,7 @@ impl World {
     /// Starts a new match from a checked start, with new senses.
     fn start_match(&mut self, checked: CheckedStart) {
         self.start(checked);
-        self.set_senses(0, self.config().sensing.clone());
+        self.set_senses(0, self.shared.sensing.clone());
     }
 
     /// Reads and checks a start.

@@ -1,5 +1,7 @@
 //! A match whose robots do not know the true state or do not obey exactly.
 
+use std::sync::Arc;
+
 use crate::body_parameters::BodyParameters;
 use crate::engine::NonFinite;
 use crate::forecast::Knowledge;
@@ -12,7 +14,7 @@ use crate::world::{WorkingMemory, World};
 
 impl World {
     /// Begins senses anew. `key` makes their errors the match's own.
-    pub(super) fn set_senses(&mut self, key: u64, sensing: Option<Sensing>) {
+    pub(super) fn set_senses(&mut self, key: u64, sensing: Option<Arc<Sensing>>) {
         self.senses = sensing.map(|sensing| Box::new(Senses::new(sensing, key, self.watched())));
     }
 
