@@ -103,7 +103,7 @@ class Session:
         for team in self.teams:
             has_policy = stand_ins.plays(team.index)
             stand_in = stand_ins.commands if has_policy else None
-            team.write(self._commands, seconds, stand_in, arena.frame.robots.heading[0])
+            team.write(self._commands, seconds, stand_in, arena.frame.robots)
         arena.step(self._commands)
 
     def release_silent(self, team: Team, now: float) -> None:

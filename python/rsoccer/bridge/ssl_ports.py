@@ -125,17 +125,18 @@ class SslPorts:
     def _team(self, team: Team, data: bytes, address: Address, now: float) -> bytes:
         """Obey a message to a team's port, and return the answer."""
         session, arena = self._session, self._session.arena
-        seconds, kind = arena.seconds, simulation_pb2.RobotControl
+        seconds = arena.seconds
         session.release_silent(team, now)  # a new client inherits no commands
-        common = None
         if len(data) <= MAX_COMMON_SIZE:
             common = self._reader.read(data, team.index, team.previous(seconds))
-        message = kind() if common else parse(kind, data)
+            if common is not None:
+                if not team.accept(address, now):
+                    return to_team_response([taken(team)])
+                team.hold(common.commands, common.given, seconds, moved=common.moved)
+                return self._reader.answer(arena.sense(), team.index, common.given)
+        message = parse(simulation_pb2.RobotControl, data)
         if not team.accept(address, now):
             return to_team_response([taken(team)])
-        if common is not None:
-            team.hold(common.commands, common.given, seconds, moved=common.moved)
-            return self._reader.answer(arena.sense(), team.index, common.given)
         read = read_robot_control(
             session.layout, message, team.index, arena.frame, 0, team.previous(seconds)
         )
