@@ -19,6 +19,8 @@ UUID: Final = "rSoccer-serve"
 SOURCE_NAME: Final = "rSoccer"
 """Name of the sender."""
 _ABSENT: Final = ROBOT_COLUMNS.index("absent")
+_NUMBERS: Final = np.array([0, 1, 2, 4, 5, 6])
+"""Columns of a robot that are numbers of its message; the third is replaced by the angle."""
 _FRAME: Final = tracker_pb2.Packet.TRACKED_FRAME_FIELD_NUMBER
 
 
@@ -72,12 +74,10 @@ class TrackerPackets:
         # Position, heading, velocity and angular velocity are the first columns of a robot.
         robots = frame.robots.data[0]
         slots = np.flatnonzero(robots[:, _ABSENT] == 0)
-        columns = robots[slots, :7].astype(np.float64)
+        columns = robots.take(slots, axis=0)[:, :7].astype(np.float64)
         columns[:, :6] *= sign
-        numbers = np.empty((len(slots), 6))
-        numbers[:, :2] = columns[:, :2]
+        numbers = columns.take(_NUMBERS, axis=1)
         np.arctan2(columns[:, 3], columns[:, 2], out=numbers[:, 2])
-        numbers[:, 3:] = columns[:, 4:]
         content = message.SerializeToString() + self._rows.write(slots, numbers)
         packet: bytes = self._wrapper + field_of(_FRAME, content)
         return packet

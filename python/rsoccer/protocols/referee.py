@@ -18,6 +18,7 @@ NAMES: Final = ("Blue", "Yellow")
 RUNNING: Final = (Command.NORMAL_START, Command.FORCE_START)
 """Commands under which play goes on."""
 _PLACEMENTS: Final = (Command.BALL_PLACEMENT_BLUE, Command.BALL_PLACEMENT_YELLOW)
+_WIRE_COMMANDS: Final = frozenset(referee_pb2.Command.values())
 _MAX_TIME: Final = 2**63 - 1
 _READ_AS: Final[dict[int, Command]] = {
     referee_pb2.INDIRECT_FREE_YELLOW: Command.DIRECT_FREE_YELLOW,
@@ -216,7 +217,7 @@ def _time(seconds: float) -> int:
 
 
 def _wire_command(command: Command) -> int:
-    if int(command) not in referee_pb2.Command.values():
+    if command not in _WIRE_COMMANDS:
         raise MessageError(
             Code.UNSUPPORTED_COMMAND, f"command: expected one of the SSL, got {command.name}"
         )

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Final
 
+import numpy as np
+
+from rsoccer._core import GAME_COLUMNS
 from rsoccer.game import BLUE, YELLOW, Command, Game, Stage
 from rsoccer.protocols.game_events import ReportedEvent
-from rsoccer.protocols.layout import TEAMS, WireLayout
+from rsoccer.protocols.layout import TEAM_NAMES, TEAMS, WireLayout
 from rsoccer.protocols.referee import NAMES, RefereeStatus, TeamStatus
 
 if TYPE_CHECKING:
@@ -24,6 +27,11 @@ _UNTIMED: Final = (
     *(Stage.PENALTY_SHOOTOUT, Stage.POST_GAME),
 )
 """Stages without a clock."""
+_CARDS: Final = tuple(
+    [name for name in GAME_COLUMNS if name.startswith(f"yellow_steps_left_{color}_")]
+    for color in TEAM_NAMES
+)
+"""Columns of the yellow cards of each team."""
 
 
 def status_of_game(
@@ -47,43 +55,48 @@ def status_of_game(
         goalkeepers: uniform numbers of their goalkeepers.
         events: events since play stopped.
     """
-    command, stage = Command(int(game.command[world])), Stage(int(game.stage[world]))
-    following = int(game.next_command[world])
-    x, y = game.designated_position[world].tolist()
+    # All columns at once: one by one they take several times as long.
+    columns = dict(zip(GAME_COLUMNS, game.referee[world].tolist(), strict=True))
+    command, stage = Command(int(columns["command"])), Stage(int(columns["stage"]))
+    following = int(columns["next_command"])
+    place = columns["designated_position_x"], columns["designated_position_y"]
+    scores = game.score[world].tolist()
+    blue, yellow = (
+        _team_of_columns(layout, columns, rules, team, names[team], scores[team], goalkeepers[team])
+        for team in TEAMS
+    )
     return RefereeStatus(
         command=command,
         stage=stage,
-        teams=(
-            _team_of_game(layout, game, world, rules, BLUE, names[BLUE], goalkeepers[BLUE]),
-            _team_of_game(layout, game, world, rules, YELLOW, names[YELLOW], goalkeepers[YELLOW]),
-        ),
+        teams=(blue, yellow),
         next_command=None if following < 0 else Command(following),
         seconds_left=None if stage in _UNTIMED else float(game.seconds_left[world]),
-        action_seconds_left=_action_seconds_left(layout, game, world, rules, command),
-        designated_position=(x, y) if command in _PLACEMENTS else None,
+        action_seconds_left=_action_seconds_left(layout, columns, rules, command),
+        designated_position=place if command in _PLACEMENTS else None,
         events=tuple(events),
     )
 
 
-def _team_of_game(
+def _team_of_columns(
     layout: WireLayout,
-    game: Game,
-    world: int,
+    columns: Mapping[str, float],
     rules: RefereeConfig,
     team: int,
     name: str,
+    score: int,
     goalkeeper: int,
 ) -> TeamStatus:
-    cards = game.yellow_steps_left[world].reshape(len(TEAMS), -1)[team]
-    running = (cards[cards > 0] * layout.config.time_step).tolist()
-    red = int(game.red_cards[world, team])
-    failures = int(game.placement_failures[world, team])
+    color = TEAM_NAMES[team]
+    steps = [columns[card] for card in _CARDS[team] if columns[card] > 0]
+    running = (np.array(steps, np.float32) * layout.config.time_step).tolist() if steps else []
+    red = int(columns[f"red_cards_{color}"])
+    failures = int(columns[f"placement_failures_{color}"])
     return TeamStatus(
         name=name,
-        score=int(game.score[world, team]),
+        score=score,
         goalkeeper=goalkeeper,
-        fouls=int(game.fouls[world, team]),
-        yellow_cards=int(game.yellow_cards[world, team]),
+        fouls=int(columns[f"fouls_{color}"]),
+        yellow_cards=int(columns[f"yellow_cards_{color}"]),
         yellow_card_seconds=tuple(running),
         red_cards=red,
         max_robots=max(0, len(layout.slots(team)) - len(running) - red),
@@ -93,19 +106,19 @@ def _team_of_game(
 
 
 def _action_seconds_left(
-    layout: WireLayout, game: Game, world: int, rules: RefereeConfig, command: Command
+    layout: WireLayout, columns: Mapping[str, float], rules: RefereeConfig, command: Command
 ) -> float | None:
     """Time that a kick or a ball placement has left; None where there is none to wait for."""
     step = layout.config.time_step
-    elapsed = float(game.command_steps[world]) * step
+    elapsed = columns["command_steps"] * step
     if command in _PLACEMENTS:
-        return float(game.wait_steps[world]) * step - elapsed
-    if game.in_play[world]:
+        return columns["wait_steps"] * step - elapsed
+    if columns["in_play"]:
         return None
     if command in _FREE_KICKS:
         return float(rules.free_kick_seconds) - elapsed
     if command is Command.NORMAL_START:
-        kick = int(game.kick[world])
+        kick = int(columns["kick"])
         if kick in _KICKOFFS:
             return float(rules.kickoff_seconds) - elapsed
         if kick in _PENALTIES:
