@@ -84,8 +84,8 @@ class Team:
         """
         if self.address is None:
             return False
-        # A clock that was set back does not keep a silent client.
-        self._heard = min(self._heard, now)
+        if now < self._heard:  # a clock that was set back does not keep a silent client
+            self._heard = now
         if now - self._heard <= self._client_timeout:
             return False
         self.release()
@@ -156,9 +156,11 @@ class Team:
         if self.address is None:
             commands[team] = 0.0 if stand_in is None else stand_in[team]
             return
-        for slot, (x, y) in self._fixed.items():
-            cos, sin = robots.heading[0, slot].tolist()
-            self.commands[slot, :2] = cos * x + sin * y, cos * y - sin * x
+        if self._fixed:
+            headings = robots.heading[0]
+            for slot, (x, y) in self._fixed.items():
+                cos, sin = headings[slot].tolist()
+                self.commands[slot, :2] = cos * x + sin * y, cos * y - sin * x
         self._stop_silent(seconds)
         commands[team] = self._own_commands
         if stand_in is not None:

@@ -69,12 +69,13 @@ class TrackerPackets:
         message.capabilities.append(tracker_pb2.CAPABILITY_DETECT_FLYING_BALLS)
         seen = message.balls.add(visibility=1.0)
         x, y, z, v_x, v_y, v_z = frame.ball.data[0, :6].tolist()
-        seen.pos.x, seen.pos.y, seen.pos.z = sign * x, sign * y, z
-        seen.vel.x, seen.vel.y, seen.vel.z = sign * v_x, sign * v_y, v_z
+        place, velocity = seen.pos, seen.vel
+        place.x, place.y, place.z = sign * x, sign * y, z
+        velocity.x, velocity.y, velocity.z = sign * v_x, sign * v_y, v_z
         # Position, heading, velocity and angular velocity are the first columns of a robot.
         robots = frame.robots.data[0]
-        slots = np.flatnonzero(robots[:, _ABSENT] == 0)
-        columns = robots.take(slots, axis=0)[:, :7].astype(np.float64)
+        (slots,) = (robots[:, _ABSENT] == 0).nonzero()
+        columns = robots[:, :7].take(slots, axis=0).astype(np.float64)
         columns[:, :6] *= sign
         numbers = columns.take(_NUMBERS, axis=1)
         np.arctan2(columns[:, 3], columns[:, 2], out=numbers[:, 2])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -27,21 +28,25 @@ _UNTIMED: Final = (
     *(Stage.PENALTY_SHOOTOUT, Stage.POST_GAME),
 )
 """Stages without a clock."""
-_CARDS: Final = tuple(
-    [name for name in GAME_COLUMNS if name.startswith(f"yellow_steps_left_{color}_")]
-    for color in TEAM_NAMES
-)
-"""Columns of the yellow cards of each team."""
-_COUNTS: Final = ("fouls", "yellow_cards", "red_cards", "placement_failures")
-"""Columns that each team has."""
 _READ: Final = (
     *("command", "next_command", "stage", "kick", "in_play", "command_steps", "wait_steps"),
     *("designated_position_x", "designated_position_y"),
-    *(name for cards in _CARDS for name in cards),
-    *(f"{name}_{color}" for color in TEAM_NAMES for name in _COUNTS),
 )
-"""Columns that packets tell."""
+"""Columns of the match that packets tell."""
 _PLACES: Final = np.array([GAME_COLUMNS.index(name) for name in _READ])
+_COUNTS: Final = ("fouls", "yellow_cards", "red_cards", "placement_failures")
+"""Columns of a team that packets tell, before those of its running yellow cards."""
+_PLACES_OF_TEAMS: Final = tuple(
+    np.array(
+        [
+            *(GAME_COLUMNS.index(f"{name}_{color}") for name in _COUNTS),
+            *(i for i, n in enumerate(GAME_COLUMNS) if n.startswith(f"yellow_steps_left_{color}_")),
+        ]
+    )
+    for color in TEAM_NAMES
+)
+_MAX_KEPT: Final = 64
+"""Greatest number of states of teams that are kept."""
 
 
 def status_of_game(
@@ -66,13 +71,22 @@ def status_of_game(
         events: events since play stopped.
     """
     # All columns at once: one by one they take several times as long.
-    columns = dict(zip(_READ, game.referee[world].take(_PLACES).tolist(), strict=True))
+    row = game.referee[world]
+    columns = dict(zip(_READ, row.take(_PLACES).tolist(), strict=True))
     command, stage = Command(int(columns["command"])), Stage(int(columns["stage"]))
     following = int(columns["next_command"])
     place = columns["designated_position_x"], columns["designated_position_y"]
     scores = game.score[world].tolist()
     blue, yellow = (
-        _team_of_columns(layout, columns, rules, team, names[team], scores[team], goalkeepers[team])
+        _team_of_columns(
+            tuple(row.take(_PLACES_OF_TEAMS[team]).tolist()),
+            layout.config.time_step,
+            len(layout.slots(team)),
+            rules["placement_failures"],
+            names[team],
+            scores[team],
+            goalkeepers[team],
+        )
         for team in TEAMS
     )
     return RefereeStatus(
@@ -87,31 +101,31 @@ def status_of_game(
     )
 
 
+@lru_cache(maxsize=_MAX_KEPT)  # a team's state seldom changes
 def _team_of_columns(
-    layout: WireLayout,
-    columns: Mapping[str, float],
-    rules: RefereeConfig,
-    team: int,
+    columns: tuple[float, ...],
+    step: float,
+    robots: int,
+    max_failures: float,
     name: str,
     score: int,
     goalkeeper: int,
 ) -> TeamStatus:
-    color = TEAM_NAMES[team]
-    steps = [columns[card] for card in _CARDS[team] if columns[card] > 0]
-    running = (np.array(steps, np.float32) * layout.config.time_step).tolist() if steps else []
-    red = int(columns[f"red_cards_{color}"])
-    failures = int(columns[f"placement_failures_{color}"])
+    """State of a team from its columns: `_COUNTS`, and steps that yellow cards have left."""
+    fouls, yellow, red, failures = (int(number) for number in columns[: len(_COUNTS)])
+    steps = [number for number in columns[len(_COUNTS) :] if number > 0]
+    running = (np.array(steps, np.float32) * step).tolist()
     return TeamStatus(
         name=name,
         score=score,
         goalkeeper=goalkeeper,
-        fouls=int(columns[f"fouls_{color}"]),
-        yellow_cards=int(columns[f"yellow_cards_{color}"]),
+        fouls=fouls,
+        yellow_cards=yellow,
         yellow_card_seconds=tuple(running),
         red_cards=red,
-        max_robots=max(0, len(layout.slots(team)) - len(running) - red),
+        max_robots=max(0, robots - len(running) - red),
         placement_failures=max(0, failures),
-        may_place=failures < rules.placement_failures,
+        may_place=failures < max_failures,
     )
 
 
