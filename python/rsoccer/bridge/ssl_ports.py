@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Final
 
 import numpy as np
@@ -68,8 +69,8 @@ class SslPorts:
 
     # -- What is sent ----------------------------------------------------------------------------
 
-    def frames(self, frame: CameraFrame) -> list[Datagram]:
-        """Return what cameras and tracker tell when a frame has arrived.
+    def frames(self, frame: CameraFrame) -> Iterator[Datagram]:
+        """Return what cameras and tracker tell when a frame has arrived, each as it is known.
 
         Args:
             frame: the frame.
@@ -79,12 +80,9 @@ class SslPorts:
         geometry = seconds >= self._geometry_due
         if geometry:
             self._geometry_due = seconds + GEOMETRY_SECONDS - 1e-9
-        packets = self._vision.of(frame, seconds, geometry=geometry)
-        tracked = self._tracker.of(arena.sense(), frame.number, frame.seconds)
-        return [
-            *(Datagram("vision", packet) for packet in packets),
-            Datagram("tracker", tracked),
-        ]
+        for packet in self._vision.of(frame, seconds, geometry=geometry):
+            yield Datagram("vision", packet)
+        yield Datagram("tracker", self._tracker.of(arena.sense(), frame.number, frame.seconds))
 
     # -- What is received ------------------------------------------------------------------------
 

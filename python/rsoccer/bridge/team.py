@@ -55,7 +55,8 @@ class Team:
         self._heard = 0.0
         self._commanded: Doubles = np.full(config.n_robots, -np.inf)
         self._own = slice(self.slots.start, self.slots.stop)
-        self._own_commands, self._own_commanded = self.commands[self._own], self._commanded[self._own]
+        self._own_commands = self.commands[self._own]
+        self._own_commanded = self._commanded[self._own]
         self._next_stop = math.inf  # simulated time, s
         self._fixed: dict[int, tuple[float, float]] = {}
 
