@@ -125,6 +125,38 @@ def test_templates_are_used_and_other_messages_of_their_length_are_not_misread()
         assert reader.read(message([0, 4], wrong), BLUE, previous) is None
 
 
+@pytest.mark.parametrize(
+    ("field", "number", "is_read"),
+    [
+        ("forward", np.nextafter(np.float32(-1e9), np.float32(0.0)), True),
+        ("forward", 1e9, False),
+        ("left", -1e9, False),
+        ("kick_speed", -0.0, True),
+        ("kick_speed", -1e-45, False),
+        ("kick_angle", -0.0, True),
+        ("kick_angle", 1e-45, False),
+        ("dribbler_speed", -0.0, True),
+        ("dribbler_speed", -1e-45, False),
+        ("dribbler_speed", 1e8, True),
+    ],
+)
+def test_limits_of_numbers_in_templates(field: str, number: float, is_read: bool) -> None:
+    message = simulation_pb2.RobotControl()
+    command = message.robot_commands.add(id=2, kick_speed=1.0, kick_angle=0.0, dribbler_speed=1.0)
+    local = command.move_command.local_velocity
+    local.forward, local.left, local.angular = 1.0, 2.0, 3.0
+    data = message.SerializeToString()
+    template = MessageTemplate(message, data, {2: 2}, 12)
+    setattr(local if field in ("forward", "left") else command, field, float(number))
+    data, previous = message.SerializeToString(), np.full((12, 6), 0.25, np.float32)
+    read = template.read(data, previous)
+    assert (read is not None) is is_read
+    if read is not None:
+        expected = ControlReader(LAYOUT).read(data, BLUE, previous)
+        assert expected is not None
+        assert read.tobytes() == expected.commands.tobytes()
+
+
 def test_clients_with_a_packet_for_each_robot_have_a_template_for_each(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

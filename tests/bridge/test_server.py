@@ -13,6 +13,7 @@ from rsoccer._core import GAME_COLUMNS
 from rsoccer.bridge.arena import Arena
 from rsoccer.bridge.awaited_answers import RESEND_SECONDS
 from rsoccer.bridge.match_tasks import TICK, make_match
+from rsoccer.bridge.tracker_packets import TrackerPackets
 from rsoccer.protocols.schemas import (
     grsim_pb2,
     referee_pb2,
@@ -381,6 +382,32 @@ def test_forecasts_of_policies_change_nothing_that_is_seen() -> None:
         for seen, other in zip(first.camera_frames, second.camera_frames, strict=True):
             assert same(seen.balls, other.balls) and same(seen.robots, other.robots)
     assert not same(second.play.known_to(0).rows, first.play.known_to(0).rows)
+
+
+@pytest.mark.parametrize("speed", [None, 1.0])
+def test_vision_is_sent_before_the_tracker_is_asked(
+    monkeypatch: pytest.MonkeyPatch, speed: float | None
+) -> None:
+    wall, other = Wall(speed=speed), Wall(speed=speed)
+    for each in (wall, other):
+        each.team(local_velocity([0]))
+        each.team(local_velocity([0]), "yellow", YELLOW)
+        each.now += 0.02
+    expected = other.server.advance(other.now)
+    calls = []
+    of = TrackerPackets.of
+
+    def noted(*args: Any) -> bytes:  # noqa: ANN401
+        calls.append(args)
+        return of(*args)
+
+    monkeypatch.setattr(TrackerPackets, "of", noted)
+    sent, known = [], []
+    for datagram in wall.server.play(wall.now):
+        sent.append(datagram)
+        known.append((datagram.port, len(calls)))
+    assert sent == expected
+    assert [entry for entry in known if entry[0] != "referee"] == [("vision", 0), ("tracker", 1)]
 
 
 def test_as_fast_as_clients_answer() -> None:

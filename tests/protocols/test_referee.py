@@ -45,6 +45,13 @@ def test_states_survive_the_wire(positive: bool) -> None:
     assert list(sent.blue.yellow_card_times) == [60_500_000, 90_000_000]
 
 
+def test_packets_share_no_message() -> None:
+    first = referee.to_packet(layout(), STATUS, STAMP)
+    first.blue.score, first.blue.name = 99, "another"
+    second = referee.to_packet(layout(), STATUS, STAMP)
+    assert (second.blue.score, second.blue.name) == (BLUE_TEAM.score, BLUE_TEAM.name)
+
+
 @pytest.mark.parametrize("command", SSL_COMMANDS)
 @pytest.mark.parametrize("stage", [Stage.NORMAL_FIRST_HALF_PRE, Stage.POST_GAME])
 def test_all_commands_survive_the_wire(command: Command, stage: Stage) -> None:

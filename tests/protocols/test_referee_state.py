@@ -52,6 +52,24 @@ def test_numbers_of_a_match_are_reported() -> None:
     assert status.action_seconds_left == rule.rules.free_kick_seconds - 1.0
 
 
+def test_teams_of_equal_columns_are_reported_as_themselves() -> None:
+    matches = rsoccer.Matches("SSLMatch-v0", worlds=2)
+    matches.reset(seed=0)
+    rule = referee_of(matches.task)
+    assert rule is not None
+    game, layout = matches.play.game, WireLayout(matches.task.config)
+    for score, names in ((1, ("a", "b")), (2, ("b", "a"))):
+        game.score[:] = score
+        status = status_of_game(layout, game, 0, rule.rules, names=names, goalkeepers=(score, 0))
+        assert [team.name for team in status.teams] == list(names)
+        assert [team.score for team in status.teams] == [score, score]
+        assert [team.goalkeeper for team in status.teams] == [score, 0]
+    once = rule.rules.replaced(placement_failures=0)
+    for rules, may_place in ((rule.rules, True), (once, False)):
+        status = status_of_game(layout, game, 0, rules)
+        assert [team.may_place for team in status.teams] == [may_place, may_place]
+
+
 def test_times_left_for_actions() -> None:
     matches = rsoccer.Matches("SSLMatch-v0")
     matches.reset(seed=0)

@@ -143,7 +143,7 @@ class ControlReader:
             team: `BLUE` or `YELLOW`.
             given: (robots,) robots to tell about; if none, all of the team on the field.
         """
-        reported = given if given.any() else frame.robots.absent[0] == 0
+        reported = given if np.count_nonzero(given) else frame.robots.absent[0] == 0
         contact = frame.robots.infrared[0] > 0
         key = team, reported.tobytes(), contact.tobytes()
         answer = self._answers.get(key)

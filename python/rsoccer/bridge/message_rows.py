@@ -43,6 +43,7 @@ class MessageRows:
         if len({len(row) for row in rows}) > 1:
             raise ValueError(f"make: expected messages of one length, got {set(map(len, rows))}")
         self._templates = np.array([list(row) for row in rows], np.uint8)
+        length = self._templates.shape[1]
         places: list[int] = []
         for mark in marks:
             pattern = np.float32(mark).tobytes()
@@ -51,7 +52,10 @@ class MessageRows:
                 raise ValueError(f"make: expected each number at one place, got {found}")
             first = found.pop()
             places += range(first, first + len(pattern))
-        self._places: NDArray[np.intp] = np.array(places, np.intp)
+        self._size = len(places)
+        # Places in as many messages as there are robots, one after the other.
+        starts = length * np.arange(slots)[:, None]
+        self._places: NDArray[np.intp] = (starts + np.array(places, np.intp)).ravel()
 
     def write(self, slots: NDArray[np.intp], numbers: Array) -> bytes:
         """Return the messages of some robots, one after the other.
@@ -60,10 +64,10 @@ class MessageRows:
             slots: (m,) robots.
             numbers: (m, numbers) their numbers.
         """
-        rows = self._templates[slots]
-        values = np.ascontiguousarray(numbers, np.float32)
-        rows[:, self._places] = values.view(np.uint8).reshape(len(slots), -1)
-        return rows.tobytes()
+        content = self._templates.take(slots, axis=0).reshape(-1)
+        values = np.ascontiguousarray(numbers, np.float32).reshape(-1)
+        content[self._places[: self._size * len(slots)]] = values.view(np.uint8)
+        return content.tobytes()
 
 
 def field_of(number: int, content: bytes) -> bytes:
@@ -73,9 +77,9 @@ def field_of(number: int, content: bytes) -> bytes:
         number: number of the field, 1 to 15.
         content: the message.
     """
-    length, sizes = len(content), bytearray()
+    length, head = len(content), [number << 3 | 2]
     while length > 0x7F:
-        sizes.append(length & 0x7F | 0x80)
+        head.append(length & 0x7F | 0x80)
         length >>= 7
-    sizes.append(length)
-    return bytes((number << 3 | 2, *sizes)) + content
+    head.append(length)
+    return bytes(head) + content

@@ -23,6 +23,9 @@ _MARK: Final = 1.0e30
 _VELOCITY: Final = ("forward", "left", "angular")
 _FIELDS: Final = ("kick_speed", "kick_angle", "dribbler_speed")
 _KICK, _ANGLE, _DRIBBLER = range(3, 6)  # columns beside the velocity, in the order of both
+_COLUMNS: Final = len(_VELOCITY) + len(_FIELDS)
+_SINGLE: Final = np.dtype("<f4")
+_GREATEST: Final = np.nextafter(np.float32(MAX_MAGNITUDE), np.float32(0.0))
 
 
 class MessageTemplate:
@@ -69,23 +72,36 @@ class MessageTemplate:
             raise ValueError("message: expected numbers, got none")
         first = _starts(marked.SerializeToString(), len(data), len(places))
         self._numbers: NDArray[np.intp] = (np.array(first)[:, None] + np.arange(4)).ravel()
-        self._others = np.setdiff1d(np.arange(len(data)), self._numbers)
-        self._bytes = np.frombuffer(data, np.uint8)[self._others]
-        if not np.array_equal(
-            np.frombuffer(marked.SerializeToString(), np.uint8)[self._others], self._bytes
-        ):
+        self._others = np.full(len(data), 0xFF, np.uint8)
+        self._others[self._numbers] = 0
+        self._bytes = self._without_numbers(data)
+        if self._without_numbers(marked.SerializeToString()) != self._bytes:
             raise ValueError("data: expected the encoding of this package, got another one")
-        rows, columns = np.array(places).T
-        self._rows, self._columns = rows, columns
-        self._kicks, self._angles, self._dribblers = (
-            np.flatnonzero(columns == column) for column in (_KICK, _ANGLE, _DRIBBLER)
-        )
         self.given: Mask = np.zeros(robots, np.bool_)
         self.given[[slots[command.id] for command in message.robot_commands]] = True
         self.moved: Mask = np.zeros(robots, np.bool_)
+        rows, columns = np.array(places).T
         self.moved[rows[columns == 0]] = True
-        self._stored = np.where(columns == _ANGLE, _ANGLE - 1, columns)
-        self._kept = columns != _ANGLE
+        self._prepare_conversion(rows, columns)
+
+    def _prepare_conversion(self, rows: NDArray[np.intp], columns: NDArray[np.intp]) -> None:
+        """Prepare what turns the numbers of a message into commands.
+
+        Args:
+            rows: (numbers,) robot of each number.
+            columns: (numbers,) column of each number, with one for the angle.
+        """
+        angles, dribblers = columns == _ANGLE, columns == _DRIBBLER
+        self._greatest: Floats = np.full(len(columns), _GREATEST, np.float32)
+        self._least = -self._greatest
+        self._least[(columns == _KICK) | dribblers] = 0.0
+        self._least[angles] = self._greatest[angles] = 0.0  # a chip is read otherwise
+        self._units = np.where(dribblers, FULL_DRIBBLER_RPM, 1.0)
+        self._caps = np.where(dribblers, 1.0, np.inf)
+        self._kept = np.flatnonzero(~angles)
+        self._stored = (rows * _COLUMNS + columns)[self._kept]
+        kicks = np.flatnonzero(self.given)[:, None] * _COLUMNS + [_KICK, _KICK + 1]
+        self._ended = kicks.ravel()  # a kick holds until the next command
 
     def read(self, data: bytes, previous: Floats) -> Floats | None:
         """Return commands (robots, command) of a message; None if it has to be read otherwise.
@@ -94,22 +110,22 @@ class MessageTemplate:
             data: the bytes, as many as the template has.
             previous: (robots, command) commands that hold where the message has no number.
         """
-        raw = np.frombuffer(data, np.uint8)
-        if not np.array_equal(raw[self._others], self._bytes):
+        if self._without_numbers(data) != self._bytes:
             return None
-        numbers = raw[self._numbers].view("<f4").astype(np.float64)
-        if not (np.abs(numbers) < MAX_MAGNITUDE).all():  # refuses NaN too
+        numbers = np.frombuffer(data, np.uint8).take(self._numbers).view(_SINGLE)
+        within = (numbers >= self._least) & (numbers <= self._greatest)  # refuses NaN too
+        if np.count_nonzero(within) < len(within):
             return None
-        if numbers[self._angles].any():  # a chip
-            return None
-        if (numbers[self._kicks] < 0.0).any() or (numbers[self._dribblers] < 0.0).any():
-            return None
-        shares = numbers[self._dribblers] / FULL_DRIBBLER_RPM
-        numbers[self._dribblers] = np.minimum(shares, 1.0)
+        values = np.minimum(numbers / self._units, self._caps)
         commands = previous.copy()
-        commands[self.given, _KICK : _KICK + 2] = 0.0  # a kick holds until the next command
-        commands[self._rows[self._kept], self._stored[self._kept]] = numbers[self._kept]
+        cells = commands.reshape(-1)
+        cells[self._ended] = 0.0
+        cells[self._stored] = values.take(self._kept)
         return commands
+
+    def _without_numbers(self, data: bytes) -> bytes:
+        """The bytes of a message, with zeros at the places of numbers."""
+        return (np.frombuffer(data, np.uint8) & self._others).tobytes()
 
 
 def _mark(nth: int) -> float:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from typing import Final
 
+import numpy as np
+
 from rsoccer._core import GAME_COLUMNS
 from rsoccer.bridge.session import Datagram, Session
 from rsoccer.game import Command, Stage
@@ -17,10 +19,12 @@ PERIOD: Final = 0.025
 """Simulated time between packets of the game controller, s; its own are sent at 39.5 Hz."""
 VSS_PERIOD: Final = 0.5
 """Simulated time between packets of VSSReferee that repeat its command, s."""
-_WATCHED: Final = [
-    GAME_COLUMNS.index(name)
-    for name in ("command", "stage", "next_command", "score_blue", "score_yellow")
-]
+_WATCHED: Final = np.array(
+    [
+        GAME_COLUMNS.index(name)
+        for name in ("command", "stage", "next_command", "score_blue", "score_yellow")
+    ]
+)
 """Columns whose change is reported at once."""
 SOURCE: Final = "rSoccer-serve"
 """Identity of the sender."""
@@ -67,7 +71,7 @@ class GameController(Officials):
         session, arena = self._session, self._session.arena
         play, seconds = arena.play, arena.seconds
         has_events = bool(play.events.count[0])
-        state = play.game.referee[0, _WATCHED].tolist()
+        state = play.game.referee[0].take(_WATCHED).tolist()
         if state == self._last and not has_events and seconds < self._next:
             return []
         game, happened = play.game, play.events.of_world(0)

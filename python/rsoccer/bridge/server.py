@@ -6,7 +6,7 @@ time.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Final
 
 from rsoccer import checks
@@ -117,14 +117,25 @@ class Server:
         Returns:
             What cameras, tracker and referee tell.
         """
+        return list(self.play(now))
+
+    def play(self, now: float) -> Iterator[Datagram]:
+        """Play the ticks that are due, as `advance` does, while the result is iterated to its end.
+
+        Args:
+            now: time on the wall, s.
+
+        Returns:
+            What cameras, tracker and referee tell, each as soon as it is known: clients read what
+            the cameras saw while the packets of tracker and referee are made.
+        """
         clock = self.session.clock
         if clock is None:
-            return self._advance_with_clients(now)
-        sent = []
+            yield from self._play_with_clients(now)
+            return
         for _ in range(min(clock.due(now), MAX_TICKS)):
             clock.step()
-            sent += self._tick(now)
-        return sent
+            yield from self._tick(now, [])
 
     def next_due(self, now: float) -> float:
         """Return the time on the wall at which `advance` has something to do.
@@ -139,37 +150,38 @@ class Server:
             return now
         return self._awaited.due
 
-    def _tick(self, now: float) -> list[Datagram]:
-        session = self.session
+    def _tick(self, now: float, sent: list[Datagram]) -> Iterator[Datagram]:
+        """Play a tick; what is sent is put into a list, too."""
+        session, ports = self.session, self.ports
         session.tick(now)
         if self._referee is not None:
             self._referee.advance()
-        sent: list[Datagram] = []
         for frame in session.arena.camera_frames:
-            sent += self.ports.frames(frame)
-        sent += self.ports.officials.datagrams()
+            for datagram in ports.frames(frame):
+                sent.append(datagram)
+                yield datagram
+        for datagram in ports.officials.datagrams():
+            sent.append(datagram)
+            yield datagram
         for listener in self.listeners:
             listener(self, sent)
-        return sent
 
     # -- As fast as clients answer ---------------------------------------------------------------
 
-    def _advance_with_clients(self, now: float) -> list[Datagram]:
+    def _play_with_clients(self, now: float) -> Iterator[Datagram]:
         self._awaited.settle(now)
         if self._is_waiting(now):
             copy = self._awaited.copy(now)
             self.session.counts["frames: sent again"] += bool(copy)
-            return copy
-        sent: list[Datagram] = []
+            yield from copy
+            return
         for _ in range(MAX_TICKS):
-            reported = self._tick(now)
-            sent += reported
+            sent: list[Datagram] = []
+            yield from self._tick(now, sent)
             if self.session.arena.camera_frames:
                 self._waits = True
-                frame = [each for each in reported if each.port != "referee"]
-                self._awaited.ask(frame, now)
+                self._awaited.ask([each for each in sent if each.port != "referee"], now)
                 break
-        return sent
 
     def _is_waiting(self, now: float) -> bool:
         """Whether a client has not answered the last frame, or has not come yet."""

@@ -96,14 +96,13 @@ class Session:
         seconds = arena.seconds
         for team in self.teams:
             self.release_silent(team, now)
-        plays = [team for team in self.teams if stand_ins.plays(team.index)]
-        if plays and stand_ins.is_due(arena.ticks):
+        if stand_ins.are_there and stand_ins.is_due(arena.ticks):
             arena.sense_for_policies()
             stand_ins.act(arena.play)
+        robots = arena.frame.robots
         for team in self.teams:
-            has_policy = stand_ins.plays(team.index)
-            stand_in = stand_ins.commands if has_policy else None
-            team.write(self._commands, seconds, stand_in, arena.frame.robots.heading[0])
+            stand_in = stand_ins.commands if stand_ins.plays(team.index) else None
+            team.write(self._commands, seconds, stand_in, robots)
         arena.step(self._commands)
 
     def release_silent(self, team: Team, now: float) -> None:

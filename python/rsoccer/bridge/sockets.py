@@ -9,7 +9,7 @@ import socket
 import struct
 import sys
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Final, Self
 
@@ -234,7 +234,7 @@ class SocketLoop:
         wait = min(max(0.0, self.server.next_due(now) - now), longest)
         for key, _ in self._selector.select(wait):
             self._receive(key.data)
-        self._send(self.server.advance(self._clock()))
+        self._send(self.server.play(self._clock()))
 
     def _receive(self, name: str) -> None:
         """Read some datagrams of a port. What is left waits, so that a flood stops no tick."""
@@ -251,7 +251,7 @@ class SocketLoop:
             if self._clock() > end:
                 return
 
-    def _send(self, datagrams: list[Datagram]) -> None:
+    def _send(self, datagrams: Iterable[Datagram]) -> None:
         counts = self.server.session.counts
         for port, data, address in datagrams:
             through = self._sockets.get(port, self._sender) if address else self._sender

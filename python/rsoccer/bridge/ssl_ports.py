@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Final
 
 import numpy as np
@@ -68,8 +69,8 @@ class SslPorts:
 
     # -- What is sent ----------------------------------------------------------------------------
 
-    def frames(self, frame: CameraFrame) -> list[Datagram]:
-        """Return what cameras and tracker tell when a frame has arrived.
+    def frames(self, frame: CameraFrame) -> Iterator[Datagram]:
+        """Return what cameras and tracker tell when a frame has arrived, each as it is known.
 
         Args:
             frame: the frame.
@@ -79,12 +80,9 @@ class SslPorts:
         geometry = seconds >= self._geometry_due
         if geometry:
             self._geometry_due = seconds + GEOMETRY_SECONDS - 1e-9
-        packets = self._vision.of(frame, seconds, geometry=geometry)
-        tracked = self._tracker.of(arena.sense(), frame.number, frame.seconds)
-        return [
-            *(Datagram("vision", packet) for packet in packets),
-            Datagram("tracker", tracked),
-        ]
+        for packet in self._vision.of(frame, seconds, geometry=geometry):
+            yield Datagram("vision", packet)
+        yield Datagram("tracker", self._tracker.of(arena.sense(), frame.number, frame.seconds))
 
     # -- What is received ------------------------------------------------------------------------
 
@@ -125,17 +123,18 @@ class SslPorts:
     def _team(self, team: Team, data: bytes, address: Address, now: float) -> bytes:
         """Obey a message to a team's port, and return the answer."""
         session, arena = self._session, self._session.arena
-        seconds, kind = arena.seconds, simulation_pb2.RobotControl
+        seconds = arena.seconds
         session.release_silent(team, now)  # a new client inherits no commands
-        common = None
         if len(data) <= MAX_COMMON_SIZE:
             common = self._reader.read(data, team.index, team.previous(seconds))
-        message = kind() if common else parse(kind, data)
+            if common is not None:
+                if not team.accept(address, now):
+                    return to_team_response([taken(team)])
+                team.hold(common.commands, common.given, seconds, moved=common.moved)
+                return self._reader.answer(arena.sense(), team.index, common.given)
+        message = parse(simulation_pb2.RobotControl, data)
         if not team.accept(address, now):
             return to_team_response([taken(team)])
-        if common is not None:
-            team.hold(common.commands, common.given, seconds, moved=common.moved)
-            return self._reader.answer(arena.sense(), team.index, common.given)
         read = read_robot_control(
             session.layout, message, team.index, arena.frame, 0, team.previous(seconds)
         )

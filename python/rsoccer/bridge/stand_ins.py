@@ -28,6 +28,7 @@ class StandIns:
     Attributes:
         observers: robots whose policies observe the match, in the order of a state row.
         forecasting: teams, "blue" or "yellow", whose policies play from a forecast.
+        are_there: whether any team has a policy.
     """
 
     def __init__(self, task: Match, blue: str | None, yellow: str | None, seed: int = 0) -> None:
@@ -51,6 +52,7 @@ class StandIns:
         self.observers: list[int] = assignment.observers.tolist()
         self.forecasting = forecasting_teams(task, assignment, None, together=False)
         self._plays = tuple(name is not None for name in given)
+        self.are_there = any(self._plays)
         self._task = task
         self._groups = assignment.groups
         root = WorldRng.seeded(seed, 1)

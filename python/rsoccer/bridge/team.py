@@ -10,6 +10,7 @@ from typing import Final
 import numpy as np
 
 from rsoccer.arrays import Doubles, Floats, Mask
+from rsoccer.frame import RobotColumns
 from rsoccer.protocols.layout import WireLayout
 
 _TOLERANCE: Final = 2.5e-3
@@ -53,6 +54,9 @@ class Team:
         self._command_timeout, self._client_timeout = command_timeout, client_timeout
         self._heard = 0.0
         self._commanded: Doubles = np.full(config.n_robots, -np.inf)
+        self._own = slice(self.slots.start, self.slots.stop)
+        self._own_commands = self.commands[self._own]
+        self._own_commanded = self._commanded[self._own]
         self._next_stop = math.inf  # simulated time, s
         self._fixed: dict[int, tuple[float, float]] = {}
 
@@ -81,8 +85,8 @@ class Team:
         """
         if self.address is None:
             return False
-        # A clock that was set back does not keep a silent client.
-        self._heard = min(self._heard, now)
+        if now < self._heard:  # a clock that was set back does not keep a silent client
+            self._heard = now
         if now - self._heard <= self._client_timeout:
             return False
         self.release()
@@ -116,13 +120,15 @@ class Team:
                 keep theirs.
         """
         # Other robots keep what they have: clients may send a packet for each robot.
-        own = given.copy()
-        own[: self.slots.start] = own[self.slots.stop :] = False
-        self.commands[own] = commands[own]
-        for slot in np.flatnonzero(own if moved is None else own & moved).tolist():
-            self._fixed.pop(slot, None)
-        self._fixed.update(fixed)
-        self._commanded[own] = seconds
+        own = given[self._own]
+        np.copyto(self._own_commands, commands[self._own], where=own[:, None])
+        if self._fixed:
+            turned = own if moved is None else own & moved[self._own]
+            for slot in (np.flatnonzero(turned) + self.slots.start).tolist():
+                self._fixed.pop(slot, None)
+        if fixed:
+            self._fixed.update(fixed)
+        np.copyto(self._own_commanded, seconds, where=own)
         self._next_stop = min(self._next_stop, seconds + self._command_timeout + _TOLERANCE)
         self.answered = True
 
@@ -136,7 +142,7 @@ class Team:
         return self.commands
 
     def write(
-        self, commands: Floats, seconds: float, stand_in: Floats | None, headings: Floats
+        self, commands: Floats, seconds: float, stand_in: Floats | None, robots: RobotColumns
     ) -> None:
         """Write the commands of the team's robots for the next tick.
 
@@ -145,19 +151,21 @@ class Team:
             seconds: simulated time, s.
             stand_in: (robots, command) commands of a policy for robots that the client has never
                 commanded; None if they stand still.
-            headings: (robots, 2) cosines and sines of all robots' headings.
+            robots: (1, robots, ...) states of all robots.
         """
-        team = slice(self.slots.start, self.slots.stop)
+        team = self._own
         if self.address is None:
             commands[team] = 0.0 if stand_in is None else stand_in[team]
             return
-        for slot, (x, y) in self._fixed.items():
-            cos, sin = headings[slot].tolist()
-            self.commands[slot, :2] = cos * x + sin * y, cos * y - sin * x
+        if self._fixed:
+            headings = robots.heading[0]
+            for slot, (x, y) in self._fixed.items():
+                cos, sin = headings[slot].tolist()
+                self.commands[slot, :2] = cos * x + sin * y, cos * y - sin * x
         self._stop_silent(seconds)
-        commands[team] = self.commands[team]
+        commands[team] = self._own_commands
         if stand_in is not None:
-            never = np.flatnonzero(np.isneginf(self._commanded[team])) + self.slots.start
+            never = np.flatnonzero(np.isneginf(self._own_commanded)) + self.slots.start
             commands[never] = stand_in[never]
 
     def _stop_silent(self, seconds: float) -> None:

@@ -19,6 +19,8 @@ UUID: Final = "rSoccer-serve"
 SOURCE_NAME: Final = "rSoccer"
 """Name of the sender."""
 _ABSENT: Final = ROBOT_COLUMNS.index("absent")
+_NUMBERS: Final = np.array([0, 1, 2, 4, 5, 6])
+"""Columns of a robot that are numbers of its message; the third is replaced by the angle."""
 _FRAME: Final = tracker_pb2.Packet.TRACKED_FRAME_FIELD_NUMBER
 
 
@@ -67,17 +69,16 @@ class TrackerPackets:
         message.capabilities.append(tracker_pb2.CAPABILITY_DETECT_FLYING_BALLS)
         seen = message.balls.add(visibility=1.0)
         x, y, z, v_x, v_y, v_z = frame.ball.data[0, :6].tolist()
-        seen.pos.x, seen.pos.y, seen.pos.z = sign * x, sign * y, z
-        seen.vel.x, seen.vel.y, seen.vel.z = sign * v_x, sign * v_y, v_z
+        place, velocity = seen.pos, seen.vel
+        place.x, place.y, place.z = sign * x, sign * y, z
+        velocity.x, velocity.y, velocity.z = sign * v_x, sign * v_y, v_z
         # Position, heading, velocity and angular velocity are the first columns of a robot.
         robots = frame.robots.data[0]
-        slots = np.flatnonzero(robots[:, _ABSENT] == 0)
-        columns = robots[slots, :7].astype(np.float64)
+        (slots,) = (robots[:, _ABSENT] == 0).nonzero()
+        columns = robots[:, :7].take(slots, axis=0).astype(np.float64)
         columns[:, :6] *= sign
-        numbers = np.empty((len(slots), 6))
-        numbers[:, :2] = columns[:, :2]
+        numbers = columns.take(_NUMBERS, axis=1)
         np.arctan2(columns[:, 3], columns[:, 2], out=numbers[:, 2])
-        numbers[:, 3:] = columns[:, 4:]
         content = message.SerializeToString() + self._rows.write(slots, numbers)
         packet: bytes = self._wrapper + field_of(_FRAME, content)
         return packet

@@ -20,6 +20,8 @@ from rsoccer.protocols.schemas import vision_pb2
 CAMERA_HEIGHT: Final = 4.0
 """Height of cameras that the senses do not place, m."""
 _DETECTION: Final = vision_pb2.Packet.DETECTION_FIELD_NUMBER
+_NUMBERS: Final = np.array([2, 3, 4, 2, 3])
+"""Columns of a frame's robots of which numbers of a message are made: x, y, angle and pixels."""
 
 
 def cameras_of(layout: WireLayout, sensing: Sensing) -> list[Camera]:
@@ -68,14 +70,19 @@ class VisionPackets:
         self._radius = layout.config.ball.radius
         self._heights: Doubles = np.array([model.height for model in layout.config.robots])
         self._rows = MessageRows(layout.config.n_robots, 5, self._template)
-        # A point appears at its place times a scale plus a middle, for each robot's height.
-        self._scales, self._middles = [], []
+        # Numbers of a robot are those of `_NUMBERS` times a scale plus a shift: its place in
+        # millimeters, and where it appears, which depends on its height.
+        self._scales, self._shifts = [], []
         for camera in self.cameras:
             x, y, z = camera.position
+            width, height = camera.image_size
             scale = camera.focal_length / np.maximum(z - self._heights, 1e-3)
-            middle = np.array(camera.image_size) / 2
-            self._scales.append(np.stack([scale, -scale], axis=-1))
-            self._middles.append(np.stack([middle[0] - x * scale, middle[1] + y * scale], axis=-1))
+            same = np.ones_like(scale)
+            units = MILLIMETERS * same, MILLIMETERS * same, same
+            nothing = -0.0 * same  # a sum with -0.0 has the sign of the other number
+            shifts = nothing, nothing, nothing, width / 2 - x * scale, height / 2 + y * scale
+            self._scales.append(np.stack([*units, scale, -scale], axis=-1))
+            self._shifts.append(np.stack(shifts, axis=-1))
         wrapper = vision_pb2.Packet(source=vision_pb2.SOURCE_OTHER)
         self._wrapper = wrapper.SerializeToString()
         wrapper.geometry.CopyFrom(to_geometry(layout, self.cameras))
@@ -110,15 +117,17 @@ class VisionPackets:
         robots = frame.robots.astype(np.float64)
         robots[:, 2:] *= self.layout.sign
         packets, alone = [], len(self.cameras) == 1
+        number, balls = frame.number % 2**32, frame.balls.tolist()
+        captured = self._epoch + frame.seconds
         for index, camera in enumerate(self.cameras):
             detection = vision_pb2.DetectionFrame(
-                frame_number=frame.number % 2**32,
+                frame_number=number,
                 camera_id=camera.camera_id,
-                t_capture=self._epoch + frame.seconds,
-                t_capture_camera=self._epoch + frame.seconds,
+                t_capture=captured,
+                t_capture_camera=captured,
                 t_sent=self._epoch + sent,
             )
-            for which, x, y, z in frame.balls.tolist():
+            for which, x, y, z in balls:
                 if which == index:
                     self._add_ball(detection, camera, (x, y, z))
             seen = robots if alone else robots[robots[:, 0] == index]
@@ -151,10 +160,8 @@ class VisionPackets:
         if not len(seen):
             return b""
         slots = seen[:, 1].astype(np.intp)
-        scale, middle = self._scales[index], self._middles[index]
-        numbers = np.empty((len(seen), 5))
-        numbers[:, :2] = seen[:, 2:4]
-        numbers[:, 3:] = seen[:, 2:4] * scale[slots] + middle[slots]
-        numbers[:, :2] *= MILLIMETERS
+        numbers = seen.take(_NUMBERS, axis=1)
         np.arctan2(seen[:, 5], seen[:, 4], out=numbers[:, 2])
+        numbers *= self._scales[index].take(slots, axis=0)
+        numbers += self._shifts[index].take(slots, axis=0)
         return self._rows.write(slots, numbers)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Final, NamedTuple
 
 from rsoccer import game
@@ -18,7 +19,10 @@ NAMES: Final = ("Blue", "Yellow")
 RUNNING: Final = (Command.NORMAL_START, Command.FORCE_START)
 """Commands under which play goes on."""
 _PLACEMENTS: Final = (Command.BALL_PLACEMENT_BLUE, Command.BALL_PLACEMENT_YELLOW)
+_WIRE_COMMANDS: Final = frozenset(referee_pb2.Command.values())
 _MAX_TIME: Final = 2**63 - 1
+_MAX_KEPT: Final = 64
+"""Greatest number of messages of teams that are kept."""
 _READ_AS: Final[dict[int, Command]] = {
     referee_pb2.INDIRECT_FREE_YELLOW: Command.DIRECT_FREE_YELLOW,
     referee_pb2.INDIRECT_FREE_BLUE: Command.DIRECT_FREE_BLUE,
@@ -216,13 +220,14 @@ def _time(seconds: float) -> int:
 
 
 def _wire_command(command: Command) -> int:
-    if int(command) not in referee_pb2.Command.values():
+    if command not in _WIRE_COMMANDS:
         raise MessageError(
             Code.UNSUPPORTED_COMMAND, f"command: expected one of the SSL, got {command.name}"
         )
     return int(command)
 
 
+@lru_cache(maxsize=_MAX_KEPT)  # a packet has a copy, and a team's state seldom changes
 def _team_info(team: TeamStatus) -> referee_pb2.TeamInfo:
     message = referee_pb2.TeamInfo(
         name=team.name,
