@@ -17,11 +17,11 @@ from rsoccer.train import Args, train
 from rsoccer.train.run.learning_curve import plot_learning_curve
 
 TASK = "VSSSelfPlay-v0"
-SAMPLES = 2_400_000
-"""Default number of decisions to learn from: two to three minutes of training on two cores."""
+SAMPLES = 1_400_000
+"""Default number of decisions to learn from: about a minute of training on two cores."""
 SHORT_RUN: Final[Mapping[str, Any]] = {
-    "rollout": {"worlds": 512},
-    "ppo": {"n_minibatches": 8},
+    "rollout": {"worlds": 256},
+    "ppo": {"n_minibatches": 4},
     "opponents": {"solo_fraction": 0.8},
 }
 """Settings of a run that ends before teams play well: most of it has one learner per match, and
