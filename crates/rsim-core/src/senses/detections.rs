@@ -163,8 +163,7 @@ pub struct CameraFrame {
     pub robots: Vec<[f32; 6]>,
 }
 
-/// Frames in the order of their arrival: some that arrived earlier, those that arrived in the last control step, and
-/// those on their way.
+/// Frames in the order of their arrival: those that arrived in the last control step, then those on their way.
 ///
 /// Detections of all frames follow each other, the oldest first: many matches have to fit into a processor's cache.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
@@ -175,13 +174,9 @@ pub(super) struct Frames {
     again: Vec<DetectedRobot>,
     ball_motions: Vec<BallMotion>,
     velocities: Vec<Velocities>,
-    /// Number of frames that arrived before the last control step, and number of all that have arrived.
-    past: usize,
+    /// Number of frames that have arrived.
     arrived: usize,
 }
-
-/// Number of past frames that are kept at most: to forget them moves all others.
-const PAST: usize = 4;
 
 /// Times of a frame, and the ends of its detections in those of all frames.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
@@ -240,18 +235,14 @@ impl Frames {
         self.again.push(robot);
     }
 
-    /// Begins a control step: frames that have arrived are past.
-    pub(super) fn begin_step(&mut self) {
-        self.past = self.arrived;
-        if self.past >= PAST {
-            self.forget_past();
+    /// Forgets the frames that have arrived.
+    pub(super) fn forget_arrived(&mut self) {
+        if self.arrived == 0 {
+            return;
         }
-    }
-
-    fn forget_past(&mut self) {
-        let [balls, blocks, again] = self.ends_of(self.past);
-        self.ends.drain(..self.past);
-        (self.past, self.arrived) = (0, self.arrived - self.past);
+        let [balls, blocks, again] = self.ends_of(self.arrived);
+        self.ends.drain(..self.arrived);
+        self.arrived = 0;
         self.balls.drain(..balls);
         self.blocks.drain(..blocks);
         self.again.drain(..again);
@@ -276,7 +267,7 @@ impl Frames {
 
     /// The frames that arrived in the last control step, as readers outside the senses get them.
     pub(super) fn camera_frames(&self) -> Vec<CameraFrame> {
-        (self.past..self.arrived).map(|nth| self.frame(nth).to_camera_frame()).collect()
+        (0..self.arrived).map(|nth| self.frame(nth).to_camera_frame()).collect()
     }
 
     /// The last frame.

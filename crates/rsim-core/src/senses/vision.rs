@@ -66,7 +66,7 @@ impl Vision {
         beams: Beams<'_>,
         orders: Orders<'_>,
     ) {
-        self.frames.begin_step();
+        self.frames.forget_arrived();
         while let Some(frame) = self.frames.arrive(now + ROUNDING) {
             self.tracker.take(sensing, frame, beams.parameters.ball.radius, Some(beams));
             if let Some(driven) = &mut self.driven {
