@@ -15,7 +15,14 @@ import gymnasium
 import pettingzoo
 
 import rsoccer
-from benches import offline, scripted_ssl, tactics, transfer_responses, transfer_tables
+from benches import (
+    offline,
+    ray_training,
+    scripted_ssl,
+    tactics,
+    transfer_responses,
+    transfer_tables,
+)
 from benches.learning.reporting import report as learning
 from benches.markdown import filled, table
 from rsoccer import policies
@@ -44,6 +51,7 @@ WRITTEN = (
     DOCS / "policies.md",
     DOCS / "protocols.md",
     DOCS / "referee.md",
+    DOCS / "scaling.md",
     DOCS / "senses.md",
     DOCS / "speed.md",
     DOCS / "transfer.md",
@@ -260,6 +268,8 @@ PARTS: dict[str, Callable[[], str]] = {
     "offline": offline.results,
     "old_names": old_names,
     "policies": policy_names,
+    "ray_extrapolation": ray_training.extrapolation,
+    "ray_training": ray_training.report,
     "referee_choices": referee_tables.choices,
     "referee_numbers": referee_tables.numbers,
     "passing": tactics.passing_report,

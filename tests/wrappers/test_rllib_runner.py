@@ -390,7 +390,8 @@ def test_the_example_continues_from_its_newest_checkpoint(
         words = ["example", *options.split(), "--iterations", str(iterations)]
         monkeypatch.setattr(sys, "argv", [*words, "--folder", str(tmp_path)])
         runpy.run_path(str(EXAMPLES / "14_ray_league.py"), run_name="__main__")
-        names = sorted(path.name for path in tmp_path.iterdir())
+        assert (tmp_path / "policy.safetensors").exists()
+        names = sorted(path.name for path in tmp_path.glob("iteration_*"))
         assert names[-1] == f"iteration_{iterations:06}"
         assert len(names) == min(iterations, 3)
     lines = [line for line in capsys.readouterr().out.splitlines() if "iteration " in line]

@@ -9,7 +9,6 @@ from typing import Annotated, Any
 
 from tyro.conf import Positional, arg
 
-from rsoccer.commands.entries import check_entries
 from rsoccer.commands.imports import Imports
 from rsoccer.commands.sources import Sources
 from rsoccer.commands.subject import check_policy_names, team_name
@@ -18,6 +17,7 @@ from rsoccer.controllers import Controller
 from rsoccer.frame import team_of
 from rsoccer.human.teams import team_controllers
 from rsoccer.lineup import DEFAULT_TASK
+from rsoccer.option_words import check_entries
 from rsoccer.registry import task_with_options
 from rsoccer.task import Task
 from rsoccer.view import SIDES

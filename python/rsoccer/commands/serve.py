@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from tyro.conf import Positional, arg
 
 from rsoccer import checks
-from rsoccer.commands.entries import check_entries
 from rsoccer.commands.imports import Imports
 from rsoccer.commands.task_options import TASK_OPTIONS
+from rsoccer.option_words import check_entries
 from rsoccer.sources import make_sensing
 
 if TYPE_CHECKING:

@@ -2,33 +2,15 @@
 
 from __future__ import annotations
 
-import ast
 from collections.abc import Mapping
 from functools import partial
 from typing import Any
 
 from tyro.constructors import PrimitiveConstructorSpec
 
-from rsoccer.commands.entries import check_entries
+from rsoccer.option_words import parse_options
 from rsoccer.registry import task_with_options
 from rsoccer.task import Task
-
-
-def _parse(argument: str, words: list[str]) -> dict[str, Any]:
-    """Values given as NAME=VALUE, as `rsoccer list` prints them, or text without quotes."""
-    options: dict[str, Any] = {}
-    names = []
-    for word in words:
-        name, separator, value = word.partition("=")
-        if not name or not separator:
-            raise ValueError(f"{argument}: expected NAME=VALUE, got {word!r}")
-        names.append(name)
-        try:
-            options[name] = ast.literal_eval(value)
-        except (SyntaxError, ValueError):
-            options[name] = value
-    check_entries(argument, names)
-    return options
 
 
 def _values_by_name(argument: str) -> PrimitiveConstructorSpec[Mapping[str, Any]]:
@@ -36,7 +18,7 @@ def _values_by_name(argument: str) -> PrimitiveConstructorSpec[Mapping[str, Any]
     return PrimitiveConstructorSpec[Mapping[str, Any]](
         nargs="*",
         metavar="[NAME=VALUE [NAME=VALUE ...]]",
-        instance_from_str=partial(_parse, argument),
+        instance_from_str=partial(parse_options, argument),
         is_instance=lambda value: isinstance(value, Mapping),
         str_from_instance=lambda options: [f"{name}={value!r}" for name, value in options.items()],
     )

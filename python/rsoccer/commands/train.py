@@ -11,10 +11,10 @@ from typing import Annotated, Any, Final, Self
 from tyro.conf import UseAppendAction, arg
 from tyro.constructors import PrimitiveConstructorSpec
 
-from rsoccer.commands.entries import check_entries
 from rsoccer.commands.imports import IMPORTS
 from rsoccer.commands.output import write
 from rsoccer.commands.task_options import RANDOMIZATION, TASK_OPTIONS
+from rsoccer.option_words import check_entries
 from rsoccer.train import Args, OpponentSettings, train
 from rsoccer.train.args import SETTINGS_FILE
 

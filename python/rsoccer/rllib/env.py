@@ -26,6 +26,9 @@ METRICS: Final = "task_metrics"
 WINDOW: Final = 100
 """Episodes over which `MetricsCallback` averages."""
 
+RUNNER_SETTINGS: Final = ("action_repeat", "fixed", "frozen", "shield")
+"""Keys of an `env_config` that `MatchesEnvRunner` alone reads."""
+
 ByAgent = dict[str, Any]
 Spaces = dict[str, Space[Any]]
 
@@ -62,7 +65,8 @@ class SoccerMultiAgentEnv(MultiAgentEnv):
                 `max_steps` as for `Matches`, and `learner`, the only robot that learns; other keys
                 are options of the task.
                 Worker processes make a simulator and a sensor model from a function or from a text
-                "module:name". `frozen` is for `MatchesEnvRunner`, and ignored here.
+                "module:name". `frozen`, `fixed`, `action_repeat` and `shield` are for
+                `MatchesEnvRunner`, and ignored here.
 
         Raises:
             ImportError: a text "module:name" whose module or name does not exist.
@@ -179,7 +183,7 @@ def new_matches(
         TypeError: an option of the wrong type or unknown.
         ValueError: no task, or a value that `Matches` refuses.
     """
-    given = {name: value for name, value in config.items() if name != "frozen"}
+    given = {name: value for name, value in config.items() if name not in RUNNER_SETTINGS}
     if "task" not in given:
         raise ValueError(f"env_config: expected a 'task', got {sorted(given)}")
     task, settings = _settings(**given)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import secrets
 import time
 from collections import Counter, defaultdict
 from collections.abc import Mapping
@@ -20,9 +21,12 @@ from ray.rllib.env.multi_agent_episode import MultiAgentEpisode
 from ray.rllib.env.vector.vector_multi_agent_env import VectorMultiAgentEnv
 from ray.rllib.utils import metrics as keys
 
+from rsoccer import checks
 from rsoccer.arrays import Array, Floats
 from rsoccer.envs.robot_rows import RobotRows
 from rsoccer.matches import Matches, Outcome
+from rsoccer.policies.shield import Shield
+from rsoccer.rllib.decisions import FixedTeams, play_decision
 from rsoccer.rllib.env import METRICS, new_matches, spaces_by_agent
 from rsoccer.rllib.episodes import Rollout, Running
 
@@ -52,6 +56,13 @@ class MatchesEnvRunner(MultiAgentEnvRunner):
     - `env_config["frozen"]` is a collection of modules that play but do not learn, such as past
       selves; their robots are not part of the returned episodes, which saves half of the data in
       self-play. `policies_to_train` still has to leave them out.
+    - `env_config["fixed"]` has the names or files of policies of the package, by names that the
+      policy mapping may return in place of modules. Such a policy plays a whole team, and is
+      frozen: `{"fixed_0": "chase"}`.
+    - `env_config["action_repeat"]` is the number of control steps for which an action is held, 1
+      by default. A step of an episode then is a decision, whose reward is the sum over them.
+    - `env_config["shield"]`, such as "vsss", names a shield of `rsoccer.policies.shield`, which
+      changes the actions that are played, and not those that are learned from.
     - Metrics of the task are in `result["env_runners"]["task_metrics"]`.
     - Runner k of a run with the seed s plays with the seeds `s + k * n` to `s + k * n + n - 1`.
 
@@ -89,9 +100,15 @@ class MatchesEnvRunner(MultiAgentEnvRunner):
         """Create new matches from `config.env_config`, and close those before them."""
         self.stop()
         settings: Mapping[str, Any] = self.config.env_config
-        self._frozen = frozenset(settings.get("frozen", ()))
+        fixed: Mapping[str, str] = settings.get("fixed", {})
+        self._frozen = frozenset((*settings.get("frozen", ()), *fixed))
+        self._action_repeat = checks.integer("action_repeat", settings.get("action_repeat", 1), 1)
+        shield = settings.get("shield")
+        self._shield = None if shield is None else Shield(shield)
         self.num_envs = self.config.num_envs_per_env_runner
-        self.matches = new_matches(settings, self.num_envs, self._first_seed(), "same_step")
+        self.matches = new_matches(settings, self.num_envs, self._first_seed(), "disabled")
+        streams = secrets.randbits(63) if (seed := self._first_seed()) is None else seed
+        self._fixed = FixedTeams(self.matches, fixed, streams)
         self._robots = RobotRows.of(self.matches)
         self.env = _MatchesEnvs(self.matches)
         self._needs_initial_reset = True
@@ -155,7 +172,7 @@ class MatchesEnvRunner(MultiAgentEnvRunner):
             columns = (
                 self._random() if random_actions else self._act(observed, len(rollout), explore)
             )
-            outcome = self.matches.step(columns[Columns.ACTIONS])
+            outcome = self._play(observed, columns[Columns.ACTIONS])
             rollout.add(columns, outcome)
             ended += self._end_episodes(rollout, outcome)
         self._observations = rollout.observations
@@ -176,8 +193,8 @@ class MatchesEnvRunner(MultiAgentEnvRunner):
         self._earlier_parts.clear()
         agents = self.matches.agents
         self._module_of = np.zeros((self.num_envs, len(agents)), np.object_)
-        self._running = [self._new_episode_of(world) for world in range(self.num_envs)]
         self._rows: dict[str, torch.Tensor | None] | None = None
+        self._running = [self._new_episode_of(world) for world in range(self.num_envs)]
 
     def _new_episode_of(self, world: int) -> Running:
         """A new episode of a match, with a module for each agent."""
@@ -191,7 +208,14 @@ class MatchesEnvRunner(MultiAgentEnvRunner):
         if chosen != self._module_of[world].tolist():
             self._module_of[world] = chosen
             self._rows = None
+        self._fixed.begin(world, modules)
         return Running(modules, head.id_)
+
+    def _play(self, observations: Floats, actions: Array) -> Outcome:
+        """Outcome of a decision in all matches."""
+        return play_decision(
+            self.matches, observations, actions, self._action_repeat, self._shield, self._fixed
+        )
 
     def _end_episodes(self, rollout: Rollout, outcome: Outcome) -> int:
         """Cut the episodes that ended in a step, and begin new ones; return their number."""
@@ -199,7 +223,8 @@ class MatchesEnvRunner(MultiAgentEnvRunner):
             return 0
         now = time.perf_counter()
         for index, world in enumerate(episodes.worlds.tolist()):
-            info, length = episodes.info(index), int(episodes.lengths[index])
+            info = episodes.info(index)
+            length = -(-int(episodes.lengths[index]) // self._action_repeat)  # decisions
             running = self._running[world]
             rollout.end(world, running, outcome, info)
             returns = dict(zip(self.matches.agents, episodes.returns[index].tolist(), strict=True))
@@ -262,6 +287,7 @@ class MatchesEnvRunner(MultiAgentEnvRunner):
             self._rows = {
                 name: None if len(names) == 1 else torch.from_numpy(np.flatnonzero(modules == name))
                 for name in names
+                if name not in self._fixed.modules
             }
         return self._rows
 

@@ -58,7 +58,7 @@ def repeat_action(
     Returns:
         The transition from before the first step to after the last.
     """
-    outcome = matches.step(_shielded(matches, actions, shield))
+    outcome = matches.step(shielded(matches, actions, shield))
     result = Transition(
         outcome.observations,
         outcome.rewards,
@@ -70,7 +70,7 @@ def repeat_action(
     )
     for _ in range(action_repeat - 1):
         playing = ~result.ended
-        outcome = matches.step(_shielded(matches, actions, shield))
+        outcome = matches.step(shielded(matches, actions, shield))
         result.rewards += outcome.rewards * playing[:, None]
         for name, term in outcome.terms.items():
             result.terms[name] += float((term * playing[:, None]).mean())
@@ -86,8 +86,17 @@ def repeat_action(
     return result
 
 
-def _shielded(matches: Matches, actions: Floats, shield: Shield | None) -> Floats:
-    """The learners' actions of a control step, behind the shield."""
+def shielded(matches: Matches, actions: Floats, shield: Shield | None) -> Floats:
+    """Return the learners' actions of a control step, behind the shield.
+
+    Args:
+        matches: the matches, before the step.
+        actions: (n, agents, action) actions.
+        shield: changes them; None for none.
+
+    Returns:
+        New actions in [-1, 1]; the argument itself without a shield.
+    """
     if shield is None:
         return actions
     play, config = matches.play, matches.task.config

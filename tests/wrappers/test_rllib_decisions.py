@@ -1,0 +1,158 @@
+"""Decisions of RLlib's runner: held actions, the shield, policies that play teams, the league."""
+
+import runpy
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from rsoccer.matches import Matches
+from rsoccer.train import Args
+
+pytest.importorskip("torch")
+pytest.importorskip("ray.rllib")
+
+from ray.rllib.algorithms.ppo import PPOConfig
+from ray.rllib.core.rl_module.default_model_config import DefaultModelConfig
+
+from rsoccer.rllib import League, MatchesEnvRunner, SoccerMultiAgentEnv
+
+pytestmark = pytest.mark.filterwarnings("ignore::DeprecationWarning", "ignore::UserWarning")
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "14_ray_league.py"
+TASK, WORLDS, LIMIT, SEED = "VSSSelfPlay-v0", 3, 7, 5
+BLUE = ("blue_0", "blue_1", "blue_2")
+
+
+def against_script(agent_id: str, episode: Any, **kwargs: Any) -> str:  # noqa: ANN401
+    return "main" if agent_id.startswith("blue") else "fixed_0"
+
+
+def against_script_alone(agent_id: str, episode: Any, **kwargs: Any) -> str:  # noqa: ANN401
+    return "fixed_0" if agent_id == "yellow_0" else "main"
+
+
+def runner_of(mapping: Any = against_script, **env_config: Any) -> Any:  # noqa: ANN401
+    config = (
+        PPOConfig()
+        .environment(
+            SoccerMultiAgentEnv, env_config={"task": TASK, "max_steps": LIMIT, **env_config}
+        )
+        .env_runners(
+            env_runner_cls=MatchesEnvRunner,
+            num_env_runners=0,
+            num_envs_per_env_runner=WORLDS,
+            rollout_fragment_length=LIMIT,
+        )
+        .multi_agent(policies={"main"}, policy_mapping_fn=mapping)
+        .rl_module(model_config=DefaultModelConfig(fcnet_hiddens=[16]))
+        .debugging(seed=SEED)
+    )
+    return MatchesEnvRunner(config=config)
+
+
+def by_world(episodes: list[Any], first: np.ndarray[Any, Any]) -> list[Any]:
+    """The first episode of each match, found by blue_0's first observation."""
+    found = {
+        tuple(episode.agent_episodes["blue_0"].observations.data[0].tolist()): episode
+        for episode in episodes
+    }
+    return [found[tuple(row.tolist())] for row in first[:, 0]]
+
+
+@pytest.mark.parametrize("repeat", [1, 3])
+def test_a_script_plays_as_in_matches_and_actions_are_held(repeat: int) -> None:
+    runner = runner_of(fixed={"fixed_0": "chase"}, action_repeat=repeat)
+    episodes = runner.sample(num_episodes=WORLDS)
+    decisions = -(-LIMIT // repeat)
+    twin = Matches(
+        TASK, WORLDS, SEED, max_steps=LIMIT, controllers={"yellow": "chase"}, autoreset="disabled"
+    )
+    chosen = by_world(episodes, twin.reset())
+    for episode in chosen:
+        assert set(episode.agent_episodes) == set(BLUE)
+        assert (len(episode), episode.is_truncated) == (decisions, True)
+    for decision in range(decisions):
+        actions = np.array(
+            [[e.agent_episodes[name].actions.data[decision] for name in BLUE] for e in chosen]
+        )
+        rewards = np.zeros((WORLDS, len(BLUE)), np.float32)
+        for _ in range(min(repeat, LIMIT - decision * repeat)):
+            outcome = twin.step(actions)
+            rewards += outcome.rewards
+        for world, episode in enumerate(chosen):
+            for robot, name in enumerate(BLUE):
+                part = episode.agent_episodes[name]
+                assert part.rewards.data[decision] == pytest.approx(rewards[world, robot])
+                seen = part.observations.data[decision + 1]
+                assert np.array_equal(seen, outcome.final_observations[world, robot])
+    assert runner.get_metrics()["task_metrics"]["steps"].peek() == LIMIT
+
+
+def test_the_script_of_a_match_follows_the_mapping() -> None:
+    league = League(1, 0.4, 1, 0.2, {"zero": 1.0, "scripted": 1.0})
+    assert league.shares == pytest.approx([0.4, 0.2, 0.2, 0.2])
+    names = [league.choose("yellow_0", type("E", (), {"id_": f"{i:x}"})) for i in range(2000)]
+    counts = {name: names.count(name) / len(names) for name in set(names)}
+    assert counts == pytest.approx(
+        {"main": 0.4, "past_0": 0.2, "fixed_0": 0.2, "fixed_1": 0.2}, abs=0.04
+    )
+
+
+def test_equal_seeds_give_equal_matches_of_scripts() -> None:
+    seen = []
+    for _ in range(2):
+        runner = runner_of(fixed={"fixed_0": "ou"}, task="VSSMatch-v0", shield="vsss")
+        runner.sample(num_timesteps=0, random_actions=True)
+        for _ in range(LIMIT):
+            actions = np.zeros((WORLDS, 6, 2), np.float32)
+            outcome = runner._play(runner._observations, actions)
+        seen.append(outcome.final_observations)
+    assert np.array_equal(*seen)
+
+
+def test_what_cannot_be_played_is_refused() -> None:
+    runner = runner_of(against_script_alone, fixed={"fixed_0": "chase"})
+    with pytest.raises(ValueError, match="expected one module in yellow"):
+        runner.sample(num_timesteps=1)
+    with pytest.raises(ValueError, match="fixed: expected a task in which all robots learn"):
+        runner_of(fixed={"fixed_0": "chase"}, task="VSS-v0")
+    with pytest.raises(ValueError, match="action_repeat"):
+        runner_of(action_repeat=0)
+    with pytest.raises(ValueError, match="shield: expected one of"):
+        runner_of(shield="unknown")
+    with pytest.raises(ValueError, match="league: expected latest_fraction"):
+        League(fixed={"chase": 1.0})
+
+
+def test_the_league_has_the_shares_of_the_trainer() -> None:
+    league = League.of(Args.for_task("VSSSelfPlay-v0").opponents)
+    assert list(league.fixed_modules.values()) == ["chase", "ou", "scripted", "zero"]
+    fixed = [0.8 * share / 7.0 for share in (2.0, 1.0, 3.0, 1.0)]
+    assert league.shares == pytest.approx([0.1, *[0.1 / 8] * 8, *fixed])
+    assert list(League.of(Args.for_task("VSSMatch-v0").opponents).fixed) == ["ou"]
+    assert sum(League(size=4).shares) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    ("task", "options", "shield"),
+    [
+        ("VSSMatch-v0", ["half_seconds=1"], "vsss"),
+        ("SSLMatch-v0", ["n_blue=2", "n_yellow=2", "division=A"], None),
+    ],
+)
+def test_the_example_plays_matches_under_a_referee(
+    task: str, options: list[str], shield: str | None
+) -> None:
+    example = runpy.run_path(str(EXAMPLE))
+    words = ["--task", task, "--runners", "0", "--matches", "2", "--horizon", "8"]
+    args = example["parsed"]([*words, "--task-options", *options])
+    config = example["configure"](args)
+    assert config.env_config["shield"] == shield
+    runner = MatchesEnvRunner(config=config)
+    episodes = runner.sample()
+    assert sum(map(len, episodes)) == 2 * 8
+    played = runner.matches.task
+    for name, value in (option.split("=") for option in options):
+        assert str(getattr(played, name)) == value
