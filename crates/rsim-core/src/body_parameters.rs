@@ -24,6 +24,8 @@ pub(crate) struct BodyParameters {
     pub(crate) wheels: Vec<BlockWheels>,
     /// Inertia and size of all bodies, by block.
     pub(crate) inertia: Vec<BlockInertia>,
+    /// Height of the highest robot, m.
+    pub(crate) highest: f32,
 }
 
 /// Inertia and size of the bodies of a block.
@@ -130,7 +132,8 @@ impl BodyParameters {
             let (block, lane) = place_of(robot(index));
             inertia[block].set(lane, inverse, body.bounding_radius);
         }
-        Self { ball, robots, wheels, inertia }
+        let highest = robots.iter().map(|body| body.model.height).fold(0.0, f32::max);
+        Self { ball, robots, wheels, inertia, highest }
     }
 
     /// Inverse inertia of a body.

@@ -53,7 +53,7 @@ pub use models::mouth::Mouth;
 pub use models::numbers::{Number, Range};
 pub use models::robot::{Body, DifferentialDrive, Drive, OmniDrive, RobotModel};
 pub use models::sensing::Sensing;
-pub use senses::detections::CameraFrame;
+pub use senses::frames::CameraFrame;
 pub use senses::vision_tracker::{SeenRobot, VisionTracker};
 pub use threads::Threads;
 pub use tick::PHYSICS_VERSION;

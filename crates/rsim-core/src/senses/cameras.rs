@@ -8,9 +8,9 @@ use crate::math::Vector;
 use crate::models::config::SimConfig;
 use crate::models::sensing::Sensing;
 use crate::senses::Watched;
-use crate::senses::detections::{
-    BallMotion, DetectedBall, DetectedBlock, DetectedRobot, Frames, Velocities,
-};
+use crate::senses::detections::{BallMotion, DetectedBall, DetectedBlock, DetectedRobot};
+use crate::senses::exposed::{Exposed, lanes_of_robots};
+use crate::senses::frames::Frames;
 use crate::senses::random::{Draws, Purpose};
 use crate::senses::visibility::{Lens, Obstacle};
 
@@ -37,8 +37,6 @@ struct Camera {
     to: Vector,
     /// Error of all its positions, m.
     offset: Vector,
-    /// Length of the shadow of the highest robot on the floor, by its distance from the middle.
-    shadow: f32,
     index: u8,
 }
 
@@ -73,76 +71,6 @@ fn parts(size: f32, count: f32, overlap: f32) -> Vec<Part> {
 
 /// Tolerance of times, s: far below a tick, and far above the rounding of an hour.
 pub(super) const ROUNDING: f64 = 1e-7;
-
-/// The bodies at the instant of an exposure.
-#[derive(Clone, Copy)]
-struct Exposed<'a> {
-    watched: Watched<'a>,
-    /// Time since the exposure, s.
-    age: f32,
-}
-
-impl Exposed<'_> {
-    /// A body's motion at the exposure.
-    fn motion(&self, body: usize) -> Motion {
-        let now = self.watched.state.bodies.motion(body);
-        let heading = now.heading - now.heading.perp() * (now.angular_velocity * self.age);
-        Motion { position: now.position - now.velocity * self.age, heading, ..now }
-    }
-
-    /// Positions of the bodies of a block at the exposure.
-    fn positions(&self, block: usize) -> VectorLanes {
-        let now = &self.watched.state.bodies.blocks[block].motion;
-        now.position - now.velocity * Lanes::splat(self.age)
-    }
-
-    /// Headings of the bodies of a block at the exposure.
-    fn headings(&self, block: usize) -> VectorLanes {
-        let now = &self.watched.state.bodies.blocks[block].motion;
-        now.heading - now.heading.perp() * (now.angular_velocity * Lanes::splat(self.age))
-    }
-
-    /// Velocities of the bodies of a block.
-    fn velocities(&self, block: usize) -> Velocities {
-        let now = &self.watched.state.bodies.blocks[block].motion;
-        Velocities { linear: now.velocity, angular: now.angular_velocity }
-    }
-
-    /// Number of blocks.
-    fn blocks(&self) -> usize {
-        self.watched.state.bodies.blocks.len()
-    }
-
-    /// Height of the ball's lowest point, m.
-    fn height(&self) -> f32 {
-        let ball = &self.watched.state.ball;
-        (ball.z - ball.v_z * self.age).max(0.0)
-    }
-
-    /// Robots on the field, a bit each.
-    fn robots_on_field(&self) -> u64 {
-        let state = self.watched.state;
-        state.bodies.all() >> robot(0) & !state.absent
-    }
-
-    /// Robots on the field whose circles are within `reach` (m) of a point, a bit each.
-    fn robots_near(&self, point: Vector, reach: f32) -> u64 {
-        let sizes = &self.watched.parameters.inertia;
-        let bodies = (0..self.blocks()).fold(0, |bits, block| {
-            let reach = sizes[block].bounding_radius + Lanes::splat(reach);
-            let distance = (self.positions(block) - VectorLanes::splat(point)).length_squared();
-            bits | u64::from(distance.simd_le(reach * reach).to_bitmask()) << (block * LANES)
-        });
-        bodies >> robot(0) & self.robots_on_field()
-    }
-}
-
-/// Those of `robots`, one bit each, that are in a block, one bit a lane.
-fn lanes_of_robots(robots: u64, block: usize) -> u8 {
-    #[expect(clippy::cast_possible_truncation, reason = "four bits")]
-    let lanes = (robots << robot(0) >> (block * LANES)) as u8;
-    lanes & ((1 << LANES) - 1)
-}
 
 impl Cameras {
     /// The cameras of a match that begins.
@@ -234,7 +162,7 @@ impl Cameras {
 
 /// Adds all robots to a frame as cameras without errors of their own would detect them, but none as detected yet.
 fn add_robots(exposed: Exposed<'_>, sensing: &Sensing, draws: &mut Draws, frames: &mut Frames) {
-    let has_motions = is_exact(sensing);
+    let has_motions = knows_motions(sensing);
     for block in 0..exposed.blocks() {
         let [x, y] = [(); 2].map(|()| draws.normal_lanes(sensing.robot_position_noise));
         let turned = draws.normal_lanes(sensing.heading_noise);
@@ -247,7 +175,7 @@ fn add_robots(exposed: Exposed<'_>, sensing: &Sensing, draws: &mut Draws, frames
 }
 
 /// Whether robots know the motions of what is detected: without a tracker.
-fn is_exact(sensing: &Sensing) -> bool {
+fn knows_motions(sensing: &Sensing) -> bool {
     sensing.tracker < 0.5
 }
 
@@ -258,8 +186,6 @@ impl Camera {
         let columns = parts(config.field.length, sensing.cameras_along, overlap);
         let rows = parts(config.field.width, sensing.cameras_across, overlap);
         let mut all = Vec::with_capacity(columns.len() * rows.len());
-        let highest = config.robots().map(|model| model.height).fold(0.0, f32::max);
-        let shadow = Lens::shadow(sensing.camera_height, highest);
         let mut index = 0;
         for column in &columns {
             for row in &rows {
@@ -269,7 +195,6 @@ impl Camera {
                     from: Vector::new(column.from, row.from),
                     to: Vector::new(column.to, row.to),
                     offset: Vector::new(draws.normal(error), draws.normal(error)),
-                    shadow,
                     index,
                 });
                 index += 1;
@@ -295,7 +220,7 @@ impl Camera {
         draws: &mut Draws,
         frames: &mut Frames,
     ) {
-        let has_motions = is_exact(sensing);
+        let has_motions = knows_motions(sensing);
         let parameters = exposed.watched.parameters;
         let ball = exposed.motion(BALL);
         if self.sees(VectorLanes::splat(ball.position)).any()
@@ -370,7 +295,7 @@ impl Camera {
         let radius = parameters.ball.radius;
         let (lens, z) = (self.lens(sensing.camera_height), exposed.height() + radius);
         // A robot that hides the ball is nearer to the camera, or touches it.
-        let reach = radius + self.shadow * (ball - self.middle).length();
+        let reach = radius + lens.shadow(parameters.highest) * (ball - self.middle).length();
         let near = exposed.robots_near(ball, reach);
         set_bits(near).any(|index| {
             let body = &parameters.robots[index];

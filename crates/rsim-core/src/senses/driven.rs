@@ -15,11 +15,11 @@ use crate::geometry::motion::Motion;
 use crate::geometry::motion_block::MotionBlock;
 use crate::models::config::SimConfig;
 use crate::models::sensing::Sensing;
-use crate::senses::detections::Frame;
+use crate::senses::frames::Frame;
 use crate::senses::held::{Beams, Held};
 use crate::senses::resting::Resting;
 use crate::senses::track::LOST;
-use crate::senses::tracker::{Filters, Tracks};
+use crate::senses::tracks::{Filters, Tracks};
 
 /// Accelerations that the filters count with, m/s² and rad/s²: errors of models, and pushes below those that
 /// show in a single frame.

@@ -71,11 +71,11 @@ impl Link {
         if sensing.command_jitter > 0.0 {
             ticks = (ticks + draws.deviation() * sensing.command_jitter / tick).max(0.0);
         }
-        // A robot listens once a tick, at a time of its own: the mean is the delay that was asked for.
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 2 s")]
         let whole = |ticks: f32| ticks as u32;
         #[expect(clippy::cast_precision_loss, reason = "0 to 2 s")]
         let nearest = whole(ticks + 0.5) as f32;
+        // A robot listens once a tick, at a time of its own: the mean is the delay that was asked for.
         ticks = if (ticks - nearest).abs() > 1e-4 { ticks + draws.uniform() } else { nearest };
         let due = now + u64::from(whole(ticks));
         let due = self.under_way.last().map_or(due, |last| due.max(last.due));

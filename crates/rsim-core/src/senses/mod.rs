@@ -6,9 +6,11 @@
 
 mod actuators;
 mod cameras;
-pub(crate) mod detections;
+mod detections;
 mod driven;
+mod exposed;
 mod filter;
+pub(crate) mod frames;
 mod held;
 mod link;
 mod noise;
@@ -18,6 +20,7 @@ mod resting;
 mod row;
 mod track;
 mod tracker;
+mod tracks;
 mod visibility;
 mod vision;
 pub(crate) mod vision_tracker;
@@ -33,8 +36,8 @@ use crate::forecast::{Knowledge, MAX_FORECAST};
 use crate::models::config::SimConfig;
 use crate::models::sensing::Sensing;
 use crate::senses::actuators::Actuators;
-use crate::senses::detections::CameraFrame;
 use crate::senses::driven::Orders;
+use crate::senses::frames::CameraFrame;
 use crate::senses::held::Beams;
 use crate::senses::link::Link;
 use crate::senses::random::{Draws, Purpose};
@@ -207,6 +210,13 @@ impl Senses {
         row::write(&vision.tracker, self.reports.cut, |_| None, state, out);
         if let Some(driven) = &vision.driven {
             row::write_driven(driven, robots, !state.absent, out);
+        }
+    }
+
+    /// Takes the numbers from one place for all matches, if they are the same.
+    pub(crate) fn share(&mut self, shared: &Arc<Sensing>) {
+        if *self.sensing == **shared {
+            self.sensing = Arc::clone(shared);
         }
     }
 

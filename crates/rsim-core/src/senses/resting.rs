@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::motion::Motion;
 use crate::math::Vector;
 use crate::models::sensing::Sensing;
-use crate::senses::detections::Frame;
 use crate::senses::filter::GATE;
+use crate::senses::frames::Frame;
 use crate::senses::noise::Noise;
 use crate::senses::track::unit;
 

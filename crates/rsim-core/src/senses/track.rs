@@ -104,10 +104,11 @@ impl TrackBlock {
         motion.heading = before.heading.where_else(lost, motion.heading);
     }
 
-    /// Lets time pass. Returns the mask of the bodies that have not been seen for long, which now stand still.
+    /// Lets time pass. Returns the mask of the bodies that the frames up to the last one have not shown for long, which
+    /// now stand still.
     fn wait(&mut self, elapsed: Lanes) -> Lanes {
-        self.unseen += elapsed;
         let lost = self.unseen.simd_gt(Lanes::splat(LOST));
+        self.unseen += elapsed;
         let motion = &mut self.motion;
         motion.velocity = VectorLanes::ZERO.where_else(lost, motion.velocity);
         motion.angular_velocity = lost.bitselect(Lanes::ZERO, motion.angular_velocity);
@@ -177,9 +178,11 @@ impl TrackBlock {
         let difference = sin * (Lanes::ONE + square * (sixth + square * next));
         let Gains { alpha, beta, gate } = filter.gains(self.headings);
         let pushed = (difference * difference).simd_gt(gate);
-        let alpha = pushed.bitselect(Lanes::ONE, alpha);
         let beta = pushed.bitselect(Lanes::splat(PUSH_PART), beta);
         motion.heading = turned(motion.heading, difference * alpha);
+        for lane in set_bits(pushed.to_bitmask().into()) {
+            motion.heading.set(lane, unit(detected.get(lane)));
+        }
         motion.angular_velocity += difference * (beta * rate);
         self.headings = counted(self.headings, read, pushed);
         self.refused = (self.refused + (Lanes::ONE & misread)) & !read;
@@ -238,11 +241,9 @@ fn turned(heading: VectorLanes, angle: Lanes) -> VectorLanes {
         x: part(2.0, part(12.0, part(30.0, part(56.0, Lanes::ONE)))),
         y: angle * part(6.0, part(20.0, part(42.0, Lanes::ONE))),
     };
-    if square.simd_gt(Lanes::splat(SERIES * SERIES)).any() {
-        for lane in 0..LANES {
-            let (sin, cos) = libm::sincosf(angle.as_array()[lane]);
-            turn.set(lane, Vector::new(cos, sin));
-        }
+    for lane in set_bits(square.simd_gt(Lanes::splat(SERIES * SERIES)).to_bitmask().into()) {
+        let (sin, cos) = libm::sincosf(angle.as_array()[lane]);
+        turn.set(lane, Vector::new(cos, sin));
     }
     let turned = heading.rotated_by(turn);
     let [half, more] = [0.5, 1.5].map(Lanes::splat);
@@ -327,7 +328,7 @@ mod tests {
             track.update(&seen, &filter, &filter);
         }
         let [other, own] = [0, LANE].map(|lane| track.motion(lane));
-        assert!((other.position.x - LOST).abs() < PERIOD && other.velocity == Vector::ZERO);
+        assert!((other.position.x - LOST).abs() < 2.0 * PERIOD && other.velocity == Vector::ZERO);
         assert!((own.position.x - 1.0).abs() < 1e-3 && own.heading.y > 0.99);
     }
 

@@ -2,19 +2,18 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::blocks::{BALL, blocks_of, place_of, robot};
+use crate::blocks::{BALL, robot};
 use crate::geometry::motion::Motion;
 use crate::math::{Vec3, Vector};
 use crate::models::sensing::Sensing;
-use crate::senses::detections::{BallMotion, DetectedBall, Frame};
+use crate::senses::detections::{BallMotion, DetectedBall};
 use crate::senses::filter::Filter;
+use crate::senses::frames::Frame;
 use crate::senses::held::{Beams, Held};
-use crate::senses::noise::Noise;
 use crate::senses::track::TrackBlock;
+use crate::senses::tracks::{Filters, Tracks};
 
-/// Accelerations that the filters count with, m/s² and rad/s²: of a ball that slides (3 m/s²), and of robots
-/// that speed up.
-const BALL_ACCELERATION: f32 = 3.0;
+/// Accelerations of robots that speed up, which the filters count with, m/s² and rad/s².
 const ROBOT_ACCELERATION: f32 = 5.0;
 const ANGULAR_ACCELERATION: f32 = 50.0;
 
@@ -46,71 +45,6 @@ pub(super) struct Tracker {
     /// Time of the last frame, s.
     time: f64,
     filters: Filters,
-}
-
-/// Estimated motions of all bodies, by block.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-pub(super) struct Tracks {
-    pub(super) blocks: Vec<TrackBlock>,
-}
-
-impl Tracks {
-    /// The ball and `robots` robots, none of which was ever seen.
-    pub(super) fn new(robots: usize) -> Self {
-        Self { blocks: vec![TrackBlock::new(); blocks_of(robots)] }
-    }
-
-    /// The estimated motion of a body.
-    pub(super) fn motion(&self, body: usize) -> Motion {
-        let (block, lane) = place_of(body);
-        self.blocks[block].motion(lane)
-    }
-
-    /// The block of a body and its lane there.
-    fn of(&mut self, body: usize) -> (&mut TrackBlock, usize) {
-        let (block, lane) = place_of(body);
-        (&mut self.blocks[block], lane)
-    }
-
-    /// Begins with the robots of a frame, which have been watched before.
-    pub(super) fn begin(&mut self, frame: Frame<'_>) {
-        for (index, motion) in frame.moving_robots() {
-            let (block, lane) = self.of(robot(index));
-            block.begin(lane, &motion);
-        }
-    }
-
-    /// Takes in detections of robots at an instant to which all estimates have gone on.
-    pub(super) fn update(&mut self, frame: Frame<'_>, filters: &Filters) {
-        for (block, seen) in self.blocks.iter_mut().zip(frame.blocks) {
-            block.update(seen, &filters.robot, &filters.heading);
-        }
-        for seen in frame.again {
-            let (block, lane) = self.of(robot(seen.robot.into()));
-            block.average(lane, seen.position, &filters.robot);
-        }
-    }
-}
-
-/// Filters of the ball, of robots and of headings.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-pub(super) struct Filters {
-    ball: Filter,
-    robot: Filter,
-    heading: Filter,
-}
-
-impl Filters {
-    /// The filters for the noise of some senses, with a frame each `period` (s), and for robots that accelerate as
-    /// given (m/s² and rad/s²) where nobody expects it.
-    pub(super) fn of(sensing: &Sensing, period: f32, robot: f32, angular: f32) -> Self {
-        let noise = Noise::of(sensing);
-        Self {
-            ball: Filter::new(noise.ball, period, BALL_ACCELERATION),
-            robot: Filter::new(noise.robot, period, robot),
-            heading: Filter::new(noise.heading, period, angular),
-        }
-    }
 }
 
 impl Tracker {
@@ -247,7 +181,7 @@ impl Tracker {
         }
     }
 
-    /// Takes detections as they are: of the ball the first one, of a robot the last.
+    /// Takes detections as they are: of each body the first one.
     fn copy(&mut self, frame: Frame<'_>) {
         if let Some((seen, BallMotion { velocity, v_z, spin })) = frame.moving_balls().next() {
             let (block, lane) = self.tracks.of(BALL);

@@ -26,10 +26,10 @@ fn room_above(camera: f32, z: f32) -> f32 {
 }
 
 impl Lens {
-    /// Bound of the length of shadows of obstacles up to a height on the floor, by the distance of the obstacle from
-    /// the point below a camera; 0 for a camera at height 0.
-    pub(super) fn shadow(camera: f32, highest: f32) -> f32 {
-        if camera > 0.0 { highest / room_above(camera, highest) } else { 0.0 }
+    /// Bound of the length of the shadows of obstacles up to a height (m) on the floor, by their distance from the
+    /// point below the camera.
+    pub(super) fn shadow(self, highest: f32) -> f32 {
+        highest / room_above(self.height, highest)
     }
 
     /// The point of the floor where the ray to a body at height `z` meets it.

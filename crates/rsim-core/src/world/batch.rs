@@ -9,7 +9,7 @@ use crate::error::{ConfigError, SnapshotError, StepError};
 use crate::forecast::Knowledge;
 use crate::models::config::SimConfig;
 use crate::senses::Senses;
-use crate::senses::detections::CameraFrame;
+use crate::senses::frames::CameraFrame;
 use crate::state::State;
 use crate::threads::Threads;
 use crate::world::World;
@@ -228,6 +228,7 @@ impl Batch {
         let states: Vec<Saved> = snapshot::read(&self.header(), bytes)?;
         for (world, (state, senses)) in self.worlds.iter_mut().zip(states) {
             (world.state, world.senses) = (state.boxed(), senses);
+            world.share_sensing();
         }
         Ok(())
     }

@@ -6,7 +6,7 @@ use crate::body_parameters::BodyParameters;
 use crate::engine::NonFinite;
 use crate::forecast::Knowledge;
 use crate::models::sensing::Sensing;
-use crate::senses::detections::CameraFrame;
+use crate::senses::frames::CameraFrame;
 use crate::senses::{Senses, Watched};
 use crate::state::{Setup, State};
 use crate::tick::Tick;
@@ -16,6 +16,13 @@ impl World {
     /// Begins senses anew. `key` makes their errors the match's own.
     pub(super) fn set_senses(&mut self, key: u64, sensing: Option<Arc<Sensing>>) {
         self.senses = sensing.map(|sensing| Box::new(Senses::new(sensing, key, self.watched())));
+    }
+
+    /// Replaces numbers of the senses that are those of the configuration by the shared ones.
+    pub(super) fn share_sensing(&mut self) {
+        if let (Some(senses), Some(shared)) = (&mut self.senses, &self.shared.sensing) {
+            senses.share(shared);
+        }
     }
 
     /// Has the senses look at bodies that were moved by hand.

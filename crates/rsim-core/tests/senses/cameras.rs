@@ -1,5 +1,6 @@
 //! Cameras, tracker and robots' own sensors.
 
+use rsim_core::columns::{BALL_PARAMETERS, ROBOT_PARAMETERS, parameters_size};
 use rsim_core::scenes::{self, Driver, Scene};
 use rsim_core::{Knowledge, Sensing, SimConfig};
 
@@ -221,6 +222,65 @@ fn a_flying_ball_is_seen_on_the_floor_and_a_hidden_one_not_at_all() {
             seen.windows(2).any(|pair| pair[0][0][1].to_bits() != pair[1][0][1].to_bits());
         assert_eq!(changed, !is_hidden);
     }
+}
+
+#[test]
+fn a_higher_robot_of_a_worlds_own_hides_the_ball_farther_away() {
+    let hides = |height: f32| {
+        let mut scene = scenes::lone_omni(&[0.0; 6]);
+        scene.set_robot_column(0, "x", 4.0);
+        scene.set_ball([4.36, 0.0], [0.0, 0.0]);
+        let sensing = Sensing {
+            camera_height: 4.0,
+            visible_part: 0.4,
+            ball_position_noise: 0.001,
+            ..Sensing::OFF
+        };
+        scene.config.sensing = Some(sensing);
+        let mut world = scene.world();
+        let mut parameters = vec![1.0; parameters_size(1)];
+        let columns = ROBOT_PARAMETERS.iter().position(|name| *name == "height");
+        parameters[BALL_PARAMETERS.len() + columns.expect("a parameter")] = height;
+        world.place(&scene.start, Some(&parameters)).expect("valid");
+        let mut known = vec![0.0; scene.config.row_size()];
+        let mut seen = Vec::new();
+        for _ in 0..10 {
+            world.step(&[0.0; 6]).expect("finite");
+            world.write_sensed_row(&mut known);
+            seen.push(known[0].to_bits());
+        }
+        seen.windows(2).all(|pair| pair[0] == pair[1])
+    };
+    assert!(!hides(1.0) && hides(2.0));
+}
+
+#[test]
+fn exact_detections_of_robots_that_two_cameras_see_have_their_velocities() {
+    let mut scene = scenes::ssl_random(scenes::ssl(6, 6));
+    scene.config.ball.rolling_deceleration = 0.0;
+    let sensing =
+        Sensing { cameras_along: 2.0, cameras_across: 2.0, camera_overlap: 3.0, ..Sensing::OFF };
+    let played = Played::new(&scene, sensing, 4, 40);
+    for name in ["x", "sin", "v_x", "v_theta"] {
+        for robot in 0..12 {
+            for [truth, known] in played.column(Some(robot), name).iter().flatten() {
+                assert!((truth - known).abs() < 1e-4, "{robot} {name}: {known}, not {truth}");
+            }
+        }
+    }
+}
+
+#[test]
+fn velocities_are_found_from_frames_that_seldom_come() {
+    let mut scene = scenes::lone_ball(scenes::ssl(1, 0), [-2.0, 1.0], [1.0, 0.0]);
+    scene.config.ball.rolling_deceleration = 0.0;
+    scene.config.ball.rolling_drag = 0.0;
+    scene.set_ball_column("spin_y", 1.0 / scene.config.ball.radius);
+    let sensing = Sensing { frame_rate: 2.5, tracker: 1.0, ..Sensing::OFF };
+    let speeds = Played::new(&scene, sensing, 20, 80).column(None, "v_x");
+    let found = speeds.last().expect("steps").iter().map(|[_, known]| *known);
+    let (mean, deviation) = moments(found);
+    assert!((mean - 1.0).abs() < 0.05 && deviation < 0.05, "{mean} {deviation}");
 }
 
 #[test]

@@ -1,0 +1,225 @@
+//! Frames of the cameras: detections at one instant, and those on their way.
+
+use serde::{Deserialize, Serialize};
+
+use crate::blocks::{LANES, place_of, robot, set_bits};
+use crate::geometry::motion::Motion;
+use crate::senses::detections::{
+    BallMotion, DetectedBall, DetectedBlock, DetectedRobot, Velocities,
+};
+
+/// A frame: detections of all cameras at one instant.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Frame<'a> {
+    /// Time of the exposure since the senses began, s.
+    pub(super) time: f64,
+    pub(super) balls: &'a [DetectedBall],
+    /// Robots, by block.
+    pub(super) blocks: &'a [DetectedBlock],
+    /// Detections of robots that another camera has detected too.
+    pub(super) again: &'a [DetectedRobot],
+    /// Motions of the balls and velocities of the robots, by block; empty where only cameras tell them.
+    ball_motions: &'a [BallMotion],
+    velocities: &'a [Velocities],
+}
+
+impl<'a> Frame<'a> {
+    /// A frame of bodies whose motions are unknown.
+    pub(super) fn of_positions(
+        time: f64,
+        balls: &'a [DetectedBall],
+        (blocks, again): (&'a [DetectedBlock], &'a [DetectedRobot]),
+    ) -> Self {
+        Self { time, balls, blocks, again, ball_motions: &[], velocities: &[] }
+    }
+
+    /// The balls with their motions; those of a body at rest where they are unknown.
+    pub(super) fn moving_balls(&self) -> impl Iterator<Item = (&'a DetectedBall, BallMotion)> {
+        let motions = self.ball_motions;
+        let motion = move |nth| motions.get(nth).copied().unwrap_or_default();
+        self.balls.iter().enumerate().map(move |(nth, ball)| (ball, motion(nth)))
+    }
+
+    /// Indices of the detected robots with their motions, which are those of a body at rest where they are unknown.
+    pub(super) fn moving_robots(&self) -> impl Iterator<Item = (usize, Motion)> {
+        let velocities = self.velocities;
+        self.blocks.iter().enumerate().flat_map(move |(nth, block)| {
+            let moving = velocities.get(nth).copied().unwrap_or_default();
+            set_bits(block.bodies.into()).map(move |lane| {
+                let motion = Motion {
+                    position: block.position.get(lane),
+                    heading: block.heading.get(lane),
+                    velocity: moving.linear.get(lane),
+                    angular_velocity: moving.angular.as_array()[lane],
+                };
+                (nth * LANES + lane - robot(0), motion)
+            })
+        })
+    }
+
+    /// The frame as readers outside the senses get it.
+    fn to_camera_frame(self) -> CameraFrame {
+        let balls = self.balls.iter().map(|ball| {
+            let DetectedBall { position, z, camera } = *ball;
+            [f32::from(camera), position.x, position.y, z]
+        });
+        #[expect(clippy::cast_precision_loss, reason = "at most 63 robots")]
+        let first = self.moving_robots().map(|(index, Motion { position, heading, .. })| {
+            let (block, lane) = place_of(robot(index));
+            let camera = f32::from(self.blocks[block].cameras[lane]);
+            [camera, index as f32, position.x, position.y, heading.x, heading.y]
+        });
+        let again = self.again.iter().map(|seen| {
+            let DetectedRobot { position, heading, robot, camera } = *seen;
+            let [camera, robot] = [camera, robot].map(f32::from);
+            [camera, robot, position.x, position.y, heading.x, heading.y]
+        });
+        let mut robots: Vec<[f32; 6]> = first.chain(again).collect();
+        robots.sort_by(|one, other| one[0].total_cmp(&other[0]));
+        CameraFrame { time: self.time, balls: balls.collect(), robots }
+    }
+}
+
+/// Detections of all cameras at one instant, as software of teams gets them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CameraFrame {
+    /// Time of the exposure since the senses began, s.
+    pub time: f64,
+    /// For each detected ball the index of the camera, and position x, y and height, m.
+    pub balls: Vec<[f32; 4]>,
+    /// For each detected robot the index of the camera, its index in a state row, position x and y (m), and
+    /// cosine and sine of the heading, whose length is near 1. Those of a camera follow each other.
+    pub robots: Vec<[f32; 6]>,
+}
+
+/// Frames in the order of their arrival: those that arrived in the last control step, then those on their way.
+///
+/// Detections of all frames follow each other, the oldest first: many matches have to fit into a processor's cache.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub(super) struct Frames {
+    ends: Vec<Ends>,
+    balls: Vec<DetectedBall>,
+    blocks: Vec<DetectedBlock>,
+    again: Vec<DetectedRobot>,
+    ball_motions: Vec<BallMotion>,
+    velocities: Vec<Velocities>,
+    /// Number of frames that have arrived.
+    arrived: usize,
+}
+
+/// Times of a frame, and the ends of its detections in those of all frames.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+struct Ends {
+    time: f64,
+    /// Time of the arrival, s.
+    due: f64,
+    balls: u32,
+    blocks: u32,
+    again: u32,
+}
+
+impl Frames {
+    /// Forgets the frames on their way.
+    pub(super) fn forget_on_way(&mut self) {
+        self.ends.truncate(self.arrived);
+        let [balls, blocks, again] = self.ends_of(self.arrived);
+        self.balls.truncate(balls);
+        self.blocks.truncate(blocks);
+        self.again.truncate(again);
+        self.ball_motions.truncate(balls);
+        self.velocities.truncate(blocks);
+    }
+
+    /// Adds a frame that was exposed at `time` and arrives at `due`, s, but not before an earlier one: the detections
+    /// that were added since the last one.
+    pub(super) fn end_frame(&mut self, time: f64, due: f64) {
+        let on_way = &self.ends[self.arrived..];
+        let due = on_way.last().map_or(due, |last| due.max(last.due));
+        let ends = [self.balls.len(), self.blocks.len(), self.again.len()];
+        #[expect(clippy::cast_possible_truncation, reason = "detections of a second")]
+        let [balls, blocks, again] = ends.map(|end| end as u32);
+        self.ends.push(Ends { time, due, balls, blocks, again });
+    }
+
+    /// Adds a ball.
+    pub(super) fn add_ball(&mut self, ball: DetectedBall, motion: Option<BallMotion>) {
+        self.balls.push(ball);
+        self.ball_motions.extend(motion);
+    }
+
+    /// Adds a block of robots.
+    pub(super) fn add_block(&mut self, block: DetectedBlock, velocities: Option<Velocities>) {
+        self.blocks.push(block);
+        self.velocities.extend(velocities);
+    }
+
+    /// The `count` blocks that were added last.
+    pub(super) fn last_blocks(&mut self, count: usize) -> &mut [DetectedBlock] {
+        let start = self.blocks.len() - count;
+        &mut self.blocks[start..]
+    }
+
+    /// Adds a robot that another camera has detected.
+    pub(super) fn add_again(&mut self, robot: DetectedRobot) {
+        self.again.push(robot);
+    }
+
+    /// Forgets the frames that have arrived.
+    pub(super) fn forget_arrived(&mut self) {
+        if self.arrived == 0 {
+            return;
+        }
+        let [balls, blocks, again] = self.ends_of(self.arrived);
+        self.ends.drain(..self.arrived);
+        self.arrived = 0;
+        self.balls.drain(..balls);
+        self.blocks.drain(..blocks);
+        self.again.drain(..again);
+        // These are all there, or none.
+        self.ball_motions.drain(..balls.min(self.ball_motions.len()));
+        self.velocities.drain(..blocks.min(self.velocities.len()));
+        #[expect(clippy::cast_possible_truncation, reason = "they were of this size")]
+        let [balls, blocks, again] = [balls, blocks, again].map(|end| end as u32);
+        for frame in &mut self.ends {
+            frame.balls -= balls;
+            frame.blocks -= blocks;
+            frame.again -= again;
+        }
+    }
+
+    /// Lets the next frame arrive that is due at `now`, s; `None` if there is none.
+    pub(super) fn arrive(&mut self, now: f64) -> Option<Frame<'_>> {
+        self.ends.get(self.arrived).filter(|next| next.due <= now)?;
+        self.arrived += 1;
+        Some(self.frame(self.arrived - 1))
+    }
+
+    /// The frames that arrived in the last control step, as readers outside the senses get them.
+    pub(super) fn camera_frames(&self) -> Vec<CameraFrame> {
+        (0..self.arrived).map(|nth| self.frame(nth).to_camera_frame()).collect()
+    }
+
+    /// The last frame.
+    pub(super) fn last(&self) -> Option<Frame<'_>> {
+        self.ends.len().checked_sub(1).map(|last| self.frame(last))
+    }
+
+    /// Ends of the detections of the first `count` frames: balls, blocks, and robots detected again.
+    fn ends_of(&self, count: usize) -> [usize; 3] {
+        let last = count.checked_sub(1).map(|last| self.ends[last]);
+        last.map_or([0; 3], |last| [last.balls, last.blocks, last.again].map(|end| end as usize))
+    }
+
+    fn frame(&self, nth: usize) -> Frame<'_> {
+        let ([ball, block, again], [balls, blocks, agains]) =
+            (self.ends_of(nth), self.ends_of(nth + 1));
+        Frame {
+            time: self.ends[nth].time,
+            balls: &self.balls[ball..balls],
+            blocks: &self.blocks[block..blocks],
+            again: &self.again[again..agains],
+            ball_motions: self.ball_motions.get(ball..balls).unwrap_or_default(),
+            velocities: self.velocities.get(block..blocks).unwrap_or_default(),
+        }
+    }
+}
