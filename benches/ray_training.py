@@ -3,9 +3,9 @@
 Both learn a match task from nothing: the trainer alone with all cores, and the example
 `14_ray_league.py` with two runners, which needs Ray. `--only trainer`, `--only ray` and
 `--only evaluate` run one part each. A run that was interrupted goes on from its last checkpoint,
-with the seconds that it has learned. Schedules of the learning rate end
-after `--pace` decisions a second. Each saves its policy at fixed times. These policies play
-whole matches against scripts, and the result file gets the scores.
+with the seconds that it has learned. Schedules of the learning rate end after `--pace` decisions a
+second; a trainer that is faster ends before its time. Each saves its policy at fixed times. These
+policies play whole matches against scripts, and the result file gets the scores.
 
 `--speed` measures how fast one core plays and learns 11 v 11, from which `cores_needed`
 extrapolates.
@@ -13,6 +13,7 @@ extrapolates.
 
 import argparse
 import json
+import math
 import os
 import runpy
 import sys
@@ -46,8 +47,9 @@ BETWEEN: Final = 10.0
 """Minutes between two policies that are kept."""
 SAVED_EVERY: Final = 60.0
 """Seconds between two checkpoints of the run on Ray."""
-PACE: Final = {"trainer": 20_000, "ray": 15_000}
-"""Decisions a second that a run is planned for, on two cores: its schedules end after so many."""
+PACE: Final = {"trainer": 22_500, "ray": 10_000}
+"""Decisions a second and core that a run is planned for: its schedules end after so many. They are
+some tenth above those measured on two cores, so that no run ends before its time."""
 
 LARGE: Final = ("SSLMatch-v0", {"division": "A", "n_blue": 11, "n_yellow": 11})
 """Task and options of 11 v 11."""
@@ -76,7 +78,7 @@ class Plan:
     worlds: int | None = None
     """matches at once; None for the recommended number"""
     pace: int | None = None
-    """decisions a second that a run is planned for; None for those of two cores"""
+    """decisions a second that a run is planned for; None for `PACE` on all cores"""
 
     @property
     def task_options(self) -> dict[str, Any]:
@@ -89,7 +91,8 @@ class Plan:
         Args:
             side: one of `SIDES`.
         """
-        return int((self.pace or PACE[side]) * 60.0 * self.minutes)
+        pace = self.pace or PACE[side] * processors()
+        return int(pace * 60.0 * self.minutes)
 
     @property
     def marks(self) -> list[float]:
@@ -241,7 +244,8 @@ def learned(result: dict[str, Any]) -> float:
         result: result of `Algorithm.train`.
     """
     runners = result["env_runners"]
-    return float(runners.get("num_module_steps_sampled", {}).get("main", 0.0))
+    decisions = float(runners.get("num_module_steps_sampled", {}).get("main", 0.0))
+    return decisions if math.isfinite(decisions) else 0.0  # RLlib's NaN: no runner has sampled
 
 
 def evaluate(plan: Plan) -> dict[str, Any]:

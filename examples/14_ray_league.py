@@ -148,7 +148,9 @@ def begin(args: argparse.Namespace) -> Algorithm:
         ray.init(num_cpus=args.cpus, include_dashboard=False, log_to_driver=False)
     path = newest(args.folder)
     if path is not None:
-        return Algorithm.from_checkpoint(str(path.resolve()))
+        algorithm = Algorithm.from_checkpoint(str(path.resolve()))
+        league_of(args).restore(algorithm)
+        return algorithm
     return configure(args).build_algo()
 
 

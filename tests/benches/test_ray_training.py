@@ -58,6 +58,20 @@ def test_policies_are_kept_once_and_after_a_resume(tmp_path: Path) -> None:
     assert points.policy(10.0).exists()
 
 
+def test_schedules_follow_from_the_cores_or_a_pace(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(ray_training, "processors", lambda: 4)
+    monkeypatch.setitem(ray_training.PACE, "ray", 100)
+    assert Plan(minutes=2.0).decisions("ray") == 4 * 100 * 120
+    assert Plan(minutes=2.0, pace=50).decisions("ray") == 50 * 120
+
+
+def test_decisions_of_an_iteration_without_samples_are_none() -> None:
+    for main, expected in ((48.0, 48.0), (float("nan"), 0.0)):
+        result = {"env_runners": {"num_module_steps_sampled": {"main": main}}}
+        assert ray_training.learned(result) == expected
+    assert ray_training.learned({"env_runners": {}}) == 0.0
+
+
 def results(low: float) -> dict[str, Any]:
     score = {"score": low + 0.1, "low": low, "high": low + 0.2}
     point = {"minutes": 10.0, "seconds": 601.0, "decisions": 2e6, "scores": {"zero": score}}

@@ -93,11 +93,47 @@ def test_a_script_plays_as_in_matches_and_actions_are_held(repeat: int) -> None:
 def test_the_script_of_a_match_follows_the_mapping() -> None:
     league = League(1, 0.4, 1, 0.2, {"zero": 1.0, "scripted": 1.0})
     assert league.shares == pytest.approx([0.4, 0.2, 0.2, 0.2])
-    names = [league.choose("yellow_0", type("E", (), {"id_": f"{i:x}"})) for i in range(2000)]
-    counts = {name: names.count(name) / len(names) for name in set(names)}
+    counts = drawn(league)
     assert counts == pytest.approx(
         {"main": 0.4, "past_0": 0.2, "fixed_0": 0.2, "fixed_1": 0.2}, abs=0.04
     )
+
+
+def drawn(league: League, **custom_data: Any) -> dict[str, float]:  # noqa: ANN401
+    """Shares of yellow's opponents in many matches."""
+    episodes = [
+        type("Episode", (), {"id_": f"{i:x}", "custom_data": custom_data}) for i in range(2000)
+    ]
+    names = [league.choose("yellow_0", episode) for episode in episodes]
+    return {name: names.count(name) / len(names) for name in set(names)}
+
+
+def test_past_selves_are_drawn_by_their_win_rates() -> None:
+    league = League(3, 0.2, 1, 0.6, {"zero": 1.0})
+    assert drawn(league, win_rates=[]) == pytest.approx({"main": 0.8, "fixed_0": 0.2}, abs=0.04)
+    shares = drawn(league, win_rates=[1.0, 0.5])
+    assert shares == pytest.approx(
+        {"main": 0.2, "past_0": 0.06, "past_1": 0.54, "fixed_0": 0.2}, abs=0.04
+    )
+
+
+def test_results_against_frozen_opponents_are_reported() -> None:
+    runner = runner_of(fixed={"fixed_0": "chase"})
+    scores = []
+    log = runner._log_result
+
+    def logged(running: Any, info: Any) -> None:  # noqa: ANN401
+        scores.append(info["goal_score"])
+        log(running, {**info, "goal_score": (2.0, 0.0, -1.0)[len(scores) % 3]})
+
+    runner._log_result = logged
+    runner.sample(num_episodes=WORLDS)
+    against = runner.get_metrics()["results_against"]["fixed_0"]
+    assert {name: stat.peek() for name, stat in against.items()} == {"matches": 3.0, "points": 1.5}
+    assert scores == [0.0] * WORLDS
+    runner = runner_of(lambda *_, **__: "main")
+    runner.sample(num_episodes=WORLDS)
+    assert "results_against" not in runner.get_metrics()
 
 
 def test_equal_seeds_give_equal_matches_of_scripts() -> None:

@@ -7,6 +7,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -282,6 +283,7 @@ def test_frozen_modules_play_and_are_not_returned() -> None:
 
 def test_the_policy_mapping_is_asked_at_each_start() -> None:
     runner = runner_of(modules=LEAGUE.modules, mapping=LEAGUE.choose)
+    runner.set_state({"win_rates": [0.5, 0.5]})
     opponents = set()
     for _ in range(8):
         for episode in runner.sample():
@@ -366,17 +368,45 @@ def test_a_league_freezes_past_selves_and_is_restored(cluster: None, tmp_path: P
     kept = weights(algorithm.env_runner)
     assert kept == {"main": mains[5], "past_0": mains[2], "past_1": mains[4]}
     assert len({*mains.values()}) == 5
+    assert len(algorithm.env_runner.win_rates) == 2
+    algorithm.env_runner.win_rates = [0.25, 0.75]
     path = algorithm.save_to_path(str(tmp_path))
     algorithm.stop()
     restored = type(algorithm).from_checkpoint(path)
     assert weights(restored.env_runner) == kept
+    assert restored.env_runner.win_rates == [0.25, 0.75]
     result = restored.train()
     assert result["training_iteration"] == 6
     assert result["env_runners"]["num_env_steps_sampled_lifetime"] == 6 * WORLDS * FRAGMENT
     slot = LEAGUE.slots(6).index(6)
     after = weights(restored.env_runner)
     assert after[f"past_{slot}"] == after["main"] != mains[5]
+    assert restored.env_runner.win_rates[slot] == 0.5
     restored.stop()
+
+
+def test_a_league_records_results() -> None:
+    league = League(size=2, every=2)
+    local = SimpleNamespace(win_rates=[0.5])
+    group = SimpleNamespace(sent=[])
+
+    def foreach_env_runner(function: Callable[[Any], Any], **given: Any) -> None:  # noqa: ANN401
+        group.sent.append(given)
+        function(SimpleNamespace(set_state=lambda state: local.__dict__.update(state)))
+
+    group.foreach_env_runner = foreach_env_runner
+    algorithm = SimpleNamespace(iteration=3, env_runner=local, env_runner_group=group)
+    counts = {"matches": 4.0, "points": 3.5}
+    league.freeze(algorithm, {"env_runners": {"results_against": {"past_0": counts}}})
+    assert local.win_rates == [pytest.approx(0.5 + (1.0 - 0.95**4) * (3.5 / 4.0 - 0.5))]
+    local.win_rates = [0.25]
+    counts = dict.fromkeys(counts, float("nan"))  # RLlib's sum of nothing
+    league.freeze(algorithm, {"env_runners": {"results_against": {"past_0": counts}}})
+    assert local.win_rates == [0.25]
+    local.win_rates = []
+    league.freeze(algorithm, {"env_runners": {}})
+    assert local.win_rates == [0.5]  # of a checkpoint without win rates
+    assert group.sent == [{"timeout_seconds": 0.0}] * 3
 
 
 def test_the_example_continues_from_its_newest_checkpoint(
@@ -436,4 +466,26 @@ def test_a_run_survives_the_death_of_a_runner(cluster: None) -> None:
     assert sampled >= 4 * WORLDS * FRAGMENT
     assert played(lambda _: os.getpid()) != process
     assert played(weights) == learned() != before
+    win_rates = algorithm.env_runner.win_rates
+    assert len(win_rates) > 0
+    assert played(lambda runner: runner.win_rates) == win_rates
     algorithm.stop()
+
+
+def test_win_rates_reach_all_runners_and_are_restored(cluster: None, tmp_path: Path) -> None:
+    league = League(size=1, latest_fraction=0.0, every=1)
+    config = config_of(league.modules, league.choose, runners=1, frozen=league.past)
+    config.multi_agent(policies_to_train=["main"]).callbacks(on_train_result=league.freeze)
+    algorithm = config.build_algo()
+    results = [algorithm.train()["env_runners"].get("results_against") for _ in range(3)]
+    # Matches begin in steps 0, 7, 14 and 21 of 30. The first past self plays from step 10 on.
+    assert results[:2] == [None, None]
+    assert results[2] == {"past_0": {"matches": 2 * WORLDS, "points": WORLDS}}
+    algorithm.env_runner.win_rates = [0.25]
+    path = algorithm.save_to_path(str(tmp_path))
+    algorithm.stop()
+    restored = type(algorithm).from_checkpoint(path)
+    league.restore(restored)
+    known = restored.env_runner_group.foreach_env_runner(lambda runner: runner.win_rates)
+    assert known == [[0.25], [0.25]]
+    restored.stop()

@@ -23,6 +23,12 @@ from rsoccer.task import Task
 METRICS: Final = "task_metrics"
 """Key of the metrics under `env_runners` in the results of `train`."""
 
+RESULTS: Final = "results_against"
+"""Key of blue's results against frozen modules and fixed policies of yellow, beside `METRICS`."""
+
+WIN_RATES: Final = "win_rates"
+"""Key of blue's win rates against past selves, in runners' states and episodes' `custom_data`."""
+
 WINDOW: Final = 100
 """Episodes over which `MetricsCallback` averages."""
 

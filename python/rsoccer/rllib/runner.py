@@ -5,7 +5,7 @@ from __future__ import annotations
 import secrets
 import time
 from collections import Counter, defaultdict
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from contextlib import ExitStack
 from typing import Any, Final
 
@@ -24,10 +24,11 @@ from ray.rllib.utils import metrics as keys
 from rsoccer import checks
 from rsoccer.arrays import Array, Floats
 from rsoccer.envs.robot_rows import RobotRows
+from rsoccer.frame import team_of
 from rsoccer.matches import Matches, Outcome
 from rsoccer.policies.shield import Shield
 from rsoccer.rllib.decisions import FixedTeams, play_decision
-from rsoccer.rllib.env import METRICS, new_matches, spaces_by_agent
+from rsoccer.rllib.env import METRICS, RESULTS, WIN_RATES, new_matches, spaces_by_agent
 from rsoccer.rllib.episodes import Rollout, Running
 
 EVALUATION_SEED: Final = 2**40
@@ -63,11 +64,16 @@ class MatchesEnvRunner(MultiAgentEnvRunner):
       by default. A step of an episode then is a decision, whose reward is the sum over them.
     - `env_config["shield"]`, such as "vsss", names a shield of `rsoccer.policies.shield`, which
       changes the actions that are played, and not those that are learned from.
-    - Metrics of the task are in `result["env_runners"]["task_metrics"]`.
+    - Metrics of the task are in `result["env_runners"]["task_metrics"]`, and the results of blue
+      against each frozen opponent in `result["env_runners"]["results_against"]`: `matches` and
+      `points`, which are 1 for a win and 0.5 for a draw.
+    - An episode's `custom_data["win_rates"]` has blue's win rates against past selves when the
+      policy mapping is asked. They are a part of the runner's state, which `League` sets.
     - Runner k of a run with the seed s plays with the seeds `s + k * n` to `s + k * n + n - 1`.
 
     Attributes:
         matches: the matches; absent where RLlib creates no environment.
+        win_rates: blue's win rates against the past selves of a league in order of their slots.
     """
 
     def __init__(self, config: Any, **kwargs: Any) -> None:  # noqa: ANN401  (RLlib's own)
@@ -86,6 +92,7 @@ class MatchesEnvRunner(MultiAgentEnvRunner):
             if getattr(config, f"_{name}") is not None:
                 raise ValueError(f"{name}: MatchesEnvRunner runs no connectors; leave it None")
         self.env: Any = None  # what `stop` closes
+        self.win_rates: list[float] = []
         with ExitStack() as on_error:
             on_error.callback(self.stop)
             super().__init__(config=config, **kwargs)
@@ -135,6 +142,34 @@ class MatchesEnvRunner(MultiAgentEnvRunner):
         for name, module in self.module.items():
             if module.is_stateful():
                 raise ValueError(f"module {name!r}: MatchesEnvRunner serves no recurrent modules")
+
+    def get_state(
+        self,
+        components: str | Collection[str] | None = None,
+        *,
+        not_components: str | Collection[str] | None = None,
+        **kwargs: Any,  # noqa: ANN401
+    ) -> dict[str, Any]:
+        """Return the state that RLlib saves, and that runners in the place of failed ones get.
+
+        Args:
+            components: names of the parts; None for all.
+            not_components: names of parts that are left out.
+            **kwargs: as for `MultiAgentEnvRunner`.
+        """
+        state = super().get_state(components, not_components=not_components, **kwargs)
+        if self._check_component(WIN_RATES, components, not_components):
+            state[WIN_RATES] = list(self.win_rates)
+        return dict(state)
+
+    def set_state(self, state: Mapping[str, Any]) -> None:
+        """Set parts of the state.
+
+        Args:
+            state: parts by name.
+        """
+        super().set_state(state)
+        self.win_rates = list(state.get(WIN_RATES, self.win_rates))
 
     def get_metrics(self) -> Any:  # noqa: ANN401  (RLlib's own)
         """Return the metrics since the last call, in RLlib's form."""
@@ -203,6 +238,7 @@ class MatchesEnvRunner(MultiAgentEnvRunner):
             action_space=self.env.action_spaces,
             agent_to_module_mapping_fn=self.config.policy_mapping_fn,
         )
+        head.custom_data[WIN_RATES] = self.win_rates
         modules = {agent: head.module_for(agent) for agent in self.matches.agents}
         chosen = list(modules.values())
         if chosen != self._module_of[world].tolist():
@@ -236,8 +272,20 @@ class MatchesEnvRunner(MultiAgentEnvRunner):
             self._ended.append((length, total, now - running.began, returns, by_module, steps))
             window = max(1, self.config.metrics_num_episodes_for_smoothing)
             self.metrics.log_dict({METRICS: info}, window=window)
+            self._log_result(running, info)
             self._running[world] = self._new_episode_of(world)
         return len(episodes.worlds)
+
+    def _log_result(self, running: Running, info: Mapping[str, float]) -> None:
+        """Count the result of a match against a frozen module or a fixed policy of yellow."""
+        rivals = {name for agent, name in running.modules.items() if team_of(agent) == "yellow"}
+        success = self.matches.task.success or ""
+        if success not in info or len(rivals) != 1 or not rivals <= self._frozen:
+            return
+        (rival,) = rivals
+        points = (float(np.sign(info[success])) + 1.0) / 2.0
+        for name, value in {"matches": 1.0, "points": points}.items():
+            self.metrics.log_value((RESULTS, rival, name), value, reduce="sum")
 
     def _act(self, observations: Floats, steps: int, explore: bool) -> dict[str, Array]:
         """Outputs of the modules for all agents by column, (n, agents, ...), actions included."""

@@ -32,6 +32,14 @@ def test_win_rates_follow_the_results() -> None:
     assert slots.win_rates[0] > 0.99
 
 
+def test_matches_without_an_order_weigh_as_much_as_one_after_the_other() -> None:
+    one_by_one, together = slots_with([0.5, 0.3]), slots_with([0.5, 0.3])
+    one_by_one.record([0, 0, 0, 1], [1.0, 1.0, 1.0, 0.0])
+    together.record_mean(0, 1.0, 3)
+    together.record_mean(1, 0.5, 1)
+    assert together.win_rates == pytest.approx(one_by_one.win_rates)
+
+
 def test_a_new_past_policy_starts_as_an_equal() -> None:
     slots = PoolSlots(2, [10, 20], [0.9, 0.1])
     replaced = slots.take(30)

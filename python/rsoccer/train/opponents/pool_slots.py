@@ -76,6 +76,19 @@ class PoolSlots:
         for slot, result in zip(np.asarray(slots).tolist(), results.tolist(), strict=True):
             self.win_rates[slot] += RATE * (result - self.win_rates[slot])
 
+    def record_mean(self, slot: int, result: float, matches: float) -> None:
+        """Update a win rate with several matches whose order is unknown.
+
+        The matches together weigh as much as one after the other.
+
+        Args:
+            slot: slot of the opponent.
+            result: mean result of the learner: 1 for a win, 0.5 for a draw, 0 for a loss.
+            matches: number of matches.
+        """
+        weight = 1.0 - (1.0 - RATE) ** matches
+        self.win_rates[slot] += weight * (result - self.win_rates[slot])
+
     def shares(self) -> Doubles:
         """Return the probability of each past policy in the next draw, (slots,), with sum 1.
 
