@@ -41,7 +41,7 @@ OPTIONS: Final = ("half_seconds=30",)
 SIDES: Final = ("trainer", "ray")
 OPPONENTS: Final = ("ou", "chase", "scripted")
 """Policies that the trained ones play against."""
-MATCHES: Final = 200
+MATCHES: Final = 100
 """Matches of each evaluation, half of them for each team."""
 BETWEEN: Final = 10.0
 """Minutes between two policies that are kept."""
