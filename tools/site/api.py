@@ -81,6 +81,7 @@ GROUPS: Final = (
             "rsoccer.registry.names",
             "rsoccer.registry.arguments",
             "rsoccer.option_values",
+            "rsoccer.option_words",
             "rsoccer.plugins",
             "rsoccer.testing.task_check",
         ),
@@ -231,6 +232,7 @@ GROUPS: Final = (
             "rsoccer.rllib.league",
             "rsoccer.rllib.callback",
             "rsoccer.rllib.episodes",
+            "rsoccer.rllib.decisions",
         ),
     ),
     Group(
