@@ -35,6 +35,18 @@ pub(crate) const fn place_of(body: usize) -> (usize, usize) {
     (body / LANES, body % LANES)
 }
 
+/// Index of the robot in a lane of a block.
+pub(crate) const fn robot_at(block: usize, lane: usize) -> usize {
+    block * LANES + lane - robot(0)
+}
+
+/// Those of `robots`, one bit each, that are in a block, one bit a lane.
+pub(crate) fn lanes_of_robots(robots: u64, block: usize) -> u8 {
+    #[expect(clippy::cast_possible_truncation, reason = "four bits")]
+    let lanes = (robots << robot(0) >> (block * LANES)) as u8;
+    lanes & ((1 << LANES) - 1)
+}
+
 /// Positions of the bits that are set, from the lowest on.
 pub(crate) fn set_bits(mut bits: u64) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
@@ -52,6 +64,11 @@ pub(crate) fn lanes_of(number: impl FnMut(usize) -> f32) -> Lanes {
 /// The mask of the lanes for which a condition holds.
 pub(crate) fn mask_of(mut holds: impl FnMut(usize) -> bool) -> Lanes {
     lanes_of(|lane| if holds(lane) { f32::from_bits(u32::MAX) } else { 0.0 })
+}
+
+/// The mask of the lanes whose bits are set. Further bits are ignored.
+pub(crate) fn mask_of_bits(bits: u64) -> Lanes {
+    mask_of(|lane| bits >> lane & 1 == 1)
 }
 
 /// The larger of two numbers, in each lane.
@@ -229,5 +246,10 @@ mod tests {
             [(0, 0), (0, 3), (1, 0)]
         );
         assert_eq!([1, 3, 4, 22].map(blocks_of), [1, 1, 2, 6]);
+        for index in 0..22 {
+            let (block, lane) = place_of(robot(index));
+            assert_eq!(robot_at(block, lane), index);
+            assert_eq!(lanes_of_robots(1 << index, block), 1 << lane);
+        }
     }
 }

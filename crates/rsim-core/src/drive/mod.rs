@@ -10,7 +10,9 @@ pub(crate) use omni::WheelMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::blocks::{BALL, LANES, Lanes, VectorLanes, blocks_of, mask_of, place_of, robot};
+use crate::blocks::{
+    BALL, LANES, Lanes, VectorLanes, blocks_of, mask_of, mask_of_bits, place_of, robot,
+};
 use crate::geometry::motion_block::MotionBlock;
 use crate::math::Vector;
 use crate::models::robot::{DifferentialDrive, Drive, OmniDrive, RobotModel};
@@ -280,7 +282,7 @@ impl DriveState {
     pub(crate) fn estimate_loads(&mut self, motion: &MotionBlock, in_contact: u64) {
         (self.load, self.angular_load) = (VectorLanes::ZERO, Lanes::ZERO);
         if in_contact & ((1 << LANES) - 1) != 0 {
-            let mask = mask_of(|lane| in_contact >> lane & 1 == 1);
+            let mask = mask_of_bits(in_contact);
             let load = motion.velocity - self.expected_velocity;
             self.load = load.where_else(mask, VectorLanes::ZERO);
             self.angular_load = mask & (motion.angular_velocity - self.expected_angular_velocity);

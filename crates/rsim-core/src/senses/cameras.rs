@@ -2,14 +2,16 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::blocks::{BALL, LANES, Lanes, VectorLanes, mask_of, robot, set_bits};
+use crate::blocks::{
+    BALL, Lanes, VectorLanes, lanes_of_robots, mask_of_bits, robot, robot_at, set_bits,
+};
 use crate::geometry::motion::Motion;
 use crate::math::Vector;
 use crate::models::config::SimConfig;
 use crate::models::sensing::Sensing;
 use crate::senses::Watched;
 use crate::senses::detections::{BallMotion, DetectedBall, DetectedBlock, DetectedRobot};
-use crate::senses::exposed::{Exposed, lanes_of_robots};
+use crate::senses::exposed::Exposed;
 use crate::senses::frames::Frames;
 use crate::senses::random::{Draws, Purpose};
 use crate::senses::visibility::{Lens, Obstacle};
@@ -149,7 +151,7 @@ impl Cameras {
         for block in 0..exposed.blocks() {
             let mut detected = DetectedBlock::NONE;
             for lane in set_bits(lanes_of_robots(exposed.robots_on_field(), block).into()) {
-                let index = block * LANES + lane - robot(0);
+                let index = robot_at(block, lane);
                 let motion = exposed.motion(robot(index));
                 let camera = nearest(motion.position);
                 detected.set(lane, &camera.detect_robot(index, &motion, sensing, draws, false));
@@ -236,10 +238,10 @@ impl Camera {
         let missing = draws.which(sensing.missing_robots, robots);
         let misread = draws.which(sensing.misread_headings, robots);
         let ghosts = draws.which(ghost, robots);
-        let count = exposed.blocks();
+        let (count, on_field) = (exposed.blocks(), exposed.robots_on_field());
         for block in 0..count {
             let inside = self.sees(exposed.positions(block)).to_bitmask();
-            let there = lanes_of_robots(exposed.robots_on_field(), block);
+            let there = lanes_of_robots(on_field, block);
             #[expect(clippy::cast_possible_truncation, reason = "four bits")]
             let inside = inside as u8 & there;
             let seen = inside & !lanes_of_robots(missing, block);
@@ -251,13 +253,13 @@ impl Camera {
                 detected.heading.set(lane, misread_heading(heading, draws));
             }
             for lane in set_bits(again.into()) {
-                let index = block * LANES + lane - robot(0);
+                let index = robot_at(block, lane);
                 let motion = exposed.motion(robot(index));
                 let is_misread = misread >> index & 1 == 1;
                 frames.add_again(self.detect_robot(index, &motion, sensing, draws, is_misread));
             }
             for lane in set_bits((inside & lanes_of_robots(ghosts, block)).into()) {
-                let index = block * LANES + lane - robot(0);
+                let index = robot_at(block, lane);
                 let motion = exposed.motion(robot(index));
                 let front =
                     parameters.robots[index].model.front_distance() + parameters.ball.radius;
@@ -276,7 +278,7 @@ impl Camera {
             set_bits(lanes.into()).for_each(|lane| detected.cameras[lane] = self.index);
         }
         if self.offset != Vector::ZERO {
-            let mask = mask_of(|lane| lanes >> lane & 1 == 1);
+            let mask = mask_of_bits(lanes.into());
             let moved = detected.position + VectorLanes::splat(self.offset);
             detected.position = moved.where_else(mask, detected.position);
         }

@@ -68,10 +68,3 @@ impl Exposed<'_> {
         bodies >> robot(0) & self.robots_on_field()
     }
 }
-
-/// Those of `robots`, one bit each, that are in a block, one bit a lane.
-pub(super) fn lanes_of_robots(robots: u64, block: usize) -> u8 {
-    #[expect(clippy::cast_possible_truncation, reason = "four bits")]
-    let lanes = (robots << robot(0) >> (block * LANES)) as u8;
-    lanes & ((1 << LANES) - 1)
-}

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::blocks::{LANES, place_of, robot, set_bits};
+use crate::blocks::{place_of, robot, robot_at, set_bits};
 use crate::geometry::motion::Motion;
 use crate::senses::detections::{
     BallMotion, DetectedBall, DetectedBlock, DetectedRobot, Velocities,
@@ -52,7 +52,7 @@ impl<'a> Frame<'a> {
                     velocity: moving.linear.get(lane),
                     angular_velocity: moving.angular.as_array()[lane],
                 };
-                (nth * LANES + lane - robot(0), motion)
+                (robot_at(nth, lane), motion)
             })
         })
     }
@@ -63,18 +63,18 @@ impl<'a> Frame<'a> {
             let DetectedBall { position, z, camera } = *ball;
             [f32::from(camera), position.x, position.y, z]
         });
-        #[expect(clippy::cast_precision_loss, reason = "at most 63 robots")]
+        #[expect(clippy::cast_possible_truncation, reason = "at most 63 robots")]
         let first = self.moving_robots().map(|(index, Motion { position, heading, .. })| {
             let (block, lane) = place_of(robot(index));
-            let camera = f32::from(self.blocks[block].cameras[lane]);
-            [camera, index as f32, position.x, position.y, heading.x, heading.y]
+            let camera = self.blocks[block].cameras[lane];
+            DetectedRobot { position, heading, robot: index as u8, camera }
         });
-        let again = self.again.iter().map(|seen| {
-            let DetectedRobot { position, heading, robot, camera } = *seen;
+        let all = first.chain(self.again.iter().copied()).map(|seen| {
+            let DetectedRobot { position, heading, robot, camera } = seen;
             let [camera, robot] = [camera, robot].map(f32::from);
             [camera, robot, position.x, position.y, heading.x, heading.y]
         });
-        let mut robots: Vec<[f32; 6]> = first.chain(again).collect();
+        let mut robots: Vec<[f32; 6]> = all.collect();
         robots.sort_by(|one, other| one[0].total_cmp(&other[0]));
         CameraFrame { time: self.time, balls: balls.collect(), robots }
     }

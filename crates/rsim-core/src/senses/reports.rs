@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::ball::mouth::beam_is_cut;
 use crate::blocks::{
-    BALL, LANES, Lanes, VectorLanes, blocks_of, mask_of, place_of, robot, set_bits,
+    BALL, Lanes, VectorLanes, blocks_of, lanes_of_robots, mask_of_bits, place_of, robot, set_bits,
 };
 use crate::body_parameters::BodyParameters;
 use crate::geometry::motion_block::MotionBlock;
@@ -126,8 +126,7 @@ impl Reports {
             self.cut = self.cut & lost | cut & !lost;
             let reported = self.queued[nth * blocks..].iter().zip(&mut self.motions);
             for (block, (new, known)) in reported.enumerate() {
-                let is_lost = |lane: usize| lost << robot(0) >> (block * LANES + lane) & 1 == 1;
-                let lost = mask_of(is_lost);
+                let lost = mask_of_bits(lanes_of_robots(lost, block).into());
                 known.velocity = known.velocity.where_else(lost, new.velocity);
                 known.angular_velocity =
                     lost.bitselect(known.angular_velocity, new.angular_velocity);

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::blocks::{LANES, Lanes, VectorLanes, mask_of, set_bits, smaller};
+use crate::blocks::{LANES, Lanes, VectorLanes, mask_of_bits, set_bits, smaller};
 use crate::geometry::motion::Motion;
 use crate::geometry::motion_block::MotionBlock;
 use crate::math::Vector;
@@ -119,7 +119,7 @@ impl TrackBlock {
     /// since the last one, in whose middle the velocity changed. Of robots that were already seen at this instant the
     /// positions are averaged.
     pub(super) fn update(&mut self, seen: &DetectedBlock, position: &Filter, heading: &Filter) {
-        let mask = mask_of(|lane| seen.bodies >> lane & 1 == 1);
+        let mask = mask_of_bits(seen.bodies.into());
         let new = self.unseen.simd_gt(Lanes::ZERO);
         let again = (mask & !new).to_bitmask();
         // Filters of one tracker count with the same period.
@@ -133,7 +133,7 @@ impl TrackBlock {
 
     /// Takes in a detection of a body without a heading.
     pub(super) fn update_position(&mut self, lane: usize, position: Vector, filter: &Filter) {
-        let (mask, detected) = (mask_of(|each| each == lane), VectorLanes::splat(position));
+        let (mask, detected) = (mask_of_bits(1 << lane), VectorLanes::splat(position));
         self.update_positions(mask, detected, filter.rate(self.unseen), filter);
     }
 

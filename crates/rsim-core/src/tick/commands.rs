@@ -1,7 +1,7 @@
 //! Commands of a control step, read once for all of its ticks.
 
 use crate::ball::mouth::Kicker;
-use crate::blocks::{LANES, mask_of, robot};
+use crate::blocks::{LANES, mask_of_bits, robot};
 use crate::body_parameters::BodyParameters;
 use crate::columns::{OMNI_COLUMNS, OMNI_WHEELS_COLUMNS};
 use crate::drive::BlockCommands;
@@ -73,7 +73,7 @@ impl StepCommands {
     /// Commands the wheels of `bodies`, one bit each, to stand still.
     fn halt(&mut self, bodies: u64) {
         for (block, commands) in self.wheels.iter_mut().enumerate() {
-            commands.halt(mask_of(|lane| bodies >> (block * LANES + lane) & 1 == 1));
+            commands.halt(mask_of_bits(bodies >> (block * LANES)));
         }
     }
 }
