@@ -68,8 +68,29 @@ pub(crate) fn mask_of(mut holds: impl FnMut(usize) -> bool) -> Lanes {
 
 /// The mask of the lanes whose bits are set. Further bits are ignored.
 pub(crate) fn mask_of_bits(bits: u64) -> Lanes {
-    mask_of(|lane| bits >> lane & 1 == 1)
+    #[expect(clippy::cast_possible_truncation, reason = "four bits")]
+    let lanes = bits as usize % MASKS.len();
+    MASKS[lanes]
 }
+
+/// The masks of all sets of lanes.
+static MASKS: [Lanes; 1 << LANES] = {
+    let mut masks = [Lanes::ZERO; 1 << LANES];
+    let mut bits = 0;
+    while bits < masks.len() {
+        let mut mask = [0.0; LANES];
+        let mut lane = 0;
+        while lane < LANES {
+            if bits >> lane & 1 == 1 {
+                mask[lane] = f32::from_bits(u32::MAX);
+            }
+            lane += 1;
+        }
+        masks[bits] = Lanes::new(mask);
+        bits += 1;
+    }
+    masks
+};
 
 /// The larger of two numbers, in each lane.
 pub(crate) fn larger(one: Lanes, other: Lanes) -> Lanes {

@@ -26,6 +26,8 @@ pub(crate) struct BodyParameters {
     pub(crate) inertia: Vec<BlockInertia>,
     /// Height of the highest robot, m.
     pub(crate) highest: f32,
+    /// Robots with a mouth, one bit each.
+    pub(crate) mouths: u64,
 }
 
 /// Inertia and size of the bodies of a block.
@@ -133,7 +135,9 @@ impl BodyParameters {
             inertia[block].set(lane, inverse, body.bounding_radius);
         }
         let highest = robots.iter().map(|body| body.model.height).fold(0.0, f32::max);
-        Self { ball, robots, wheels, inertia, highest }
+        let mouths = robots.iter().enumerate().filter(|(_, robot)| robot.model.mouth.is_some());
+        let mouths = mouths.fold(0, |all, (index, _)| all | 1 << index);
+        Self { ball, robots, wheels, inertia, highest, mouths }
     }
 
     /// Inverse inertia of a body.

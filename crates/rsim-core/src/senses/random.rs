@@ -59,6 +59,11 @@ impl Draws {
             return 0;
         }
         let (mut happen, mut number, mut power) = (0, self.uniform(), 1.0);
+        // By Bernoulli's inequality no power is smaller, but for rounding.
+        #[expect(clippy::cast_precision_loss, reason = "at most 64")]
+        if number < 1.0 - probability * count as f32 - 1e-5 {
+            return 0;
+        }
         for index in 0..count {
             power *= 1.0 - probability;
             if number >= power {

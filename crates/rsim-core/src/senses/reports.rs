@@ -51,8 +51,7 @@ pub(super) struct Reports {
     number: u64,
     /// Errors of the gyroscopes' zeros by block, rad/s; empty without odometry.
     gyroscope_errors: Vec<Lanes>,
-    /// Robots with a mouth, and those whose beams are known to be cut, one bit each.
-    mouths: u64,
+    /// Robots whose beams are known to be cut, one bit each.
     pub(super) cut: u64,
     /// Known motions by block; empty without odometry.
     motions: Vec<OwnMotions>,
@@ -62,8 +61,6 @@ impl Reports {
     /// Before the first report.
     pub(super) fn new(parameters: &BodyParameters, sensing: &Sensing, draws: &mut Draws) -> Self {
         let robots = parameters.robots.len();
-        let mouths = parameters.robots.iter().enumerate();
-        let mouths = mouths.filter(|(_, robot)| robot.model.mouth.is_some());
         let blocks = if sensing.odometry >= 0.5 { blocks_of(robots) } else { 0 };
         let error = |_| draws.normal_lanes(sensing.gyroscope_error);
         Self {
@@ -71,7 +68,6 @@ impl Reports {
             queued: Vec::new(),
             number: 0,
             gyroscope_errors: (0..blocks).map(error).collect(),
-            mouths: mouths.fold(0, |all, (index, _)| all | 1 << index),
             cut: 0,
             motions: vec![OwnMotions::default(); blocks],
         }
@@ -81,7 +77,7 @@ impl Reports {
     pub(super) fn begin(&mut self, state: &State, parameters: &BodyParameters) {
         self.under_way.clear();
         self.queued.clear();
-        self.cut = self.cut_beams(state, parameters);
+        self.cut = cut_beams(state, parameters);
         for (motions, block) in self.motions.iter_mut().zip(&state.bodies.blocks) {
             *motions = OwnMotions::of(&block.motion);
         }
@@ -95,14 +91,14 @@ impl Reports {
         state: &State,
         parameters: &BodyParameters,
     ) {
-        if self.mouths == 0 && self.motions.is_empty() {
+        if parameters.mouths == 0 && self.motions.is_empty() {
             return;
         }
         let mut draws = Draws::of(key, Purpose::Report, self.number);
         self.number += 1;
-        let (robots, cut) = (parameters.robots.len(), self.cut_beams(state, parameters));
+        let (robots, cut) = (parameters.robots.len(), cut_beams(state, parameters));
         let missed = draws.which(sensing.beam_misses, robots) & cut;
-        let alarms = draws.which(sensing.beam_false_alarms, robots) & !cut & self.mouths;
+        let alarms = draws.which(sensing.beam_false_alarms, robots) & !cut & parameters.mouths;
         for (error, block) in self.gyroscope_errors.iter().zip(&state.bodies.blocks) {
             let mut motions = OwnMotions::of(&block.motion);
             let [x, y] = [(); 2].map(|()| draws.normal_lanes(sensing.odometry_noise));
@@ -142,15 +138,15 @@ impl Reports {
         let OwnMotions { velocity, angular_velocity } = self.motions.get(block)?;
         Some((velocity.get(lane), angular_velocity.as_array()[lane]))
     }
+}
 
-    /// Robots whose beams the ball cuts, one bit each.
-    fn cut_beams(&self, state: &State, parameters: &BodyParameters) -> u64 {
-        let ball = state.bodies.motion(BALL).position;
-        let is_cut = |index: &usize| {
-            let motion = state.bodies.motion(robot(*index));
-            let model = &parameters.robots[*index].model;
-            beam_is_cut(model, &motion, &parameters.ball, ball, &state.ball)
-        };
-        set_bits(self.mouths).filter(is_cut).fold(0, |all, index| all | 1 << index)
-    }
+/// Robots whose beams the ball cuts, one bit each.
+fn cut_beams(state: &State, parameters: &BodyParameters) -> u64 {
+    let ball = state.bodies.motion(BALL).position;
+    let is_cut = |index: &usize| {
+        let motion = state.bodies.motion(robot(*index));
+        let model = &parameters.robots[*index].model;
+        beam_is_cut(model, &motion, &parameters.ball, ball, &state.ball)
+    };
+    set_bits(parameters.mouths).filter(is_cut).fold(0, |all, index| all | 1 << index)
 }

@@ -1,7 +1,7 @@
 //! Commands of a control step, read once for all of its ticks.
 
 use crate::ball::mouth::Kicker;
-use crate::blocks::{LANES, mask_of_bits, robot};
+use crate::blocks::{LANES, mask_of_bits, robot, set_bits};
 use crate::body_parameters::BodyParameters;
 use crate::columns::{OMNI_COLUMNS, OMNI_WHEELS_COLUMNS};
 use crate::drive::BlockCommands;
@@ -49,16 +49,13 @@ impl StepCommands {
             self.halt(state.absent << robot(0));
         }
         self.handling.clear();
-        for (index, body) in parameters.robots.iter().enumerate() {
+        for index in set_bits(parameters.mouths & !state.absent) {
             let row = commands.get(index * columns..(index + 1) * columns).unwrap_or_default();
-            let Some(command) = HandlingCommand::read(index, &body.model.drive, row) else {
-                continue;
-            };
-            if body.model.mouth.is_some() && !state.is_absent(index) {
-                state.bodies.set_dribbling(index, command.dribbler);
-                if command.kicks() || command.dribbler > 0.0 {
-                    self.handling.push(command);
-                }
+            let drive = &parameters.robots[index].model.drive;
+            let Some(command) = HandlingCommand::read(index, drive, row) else { continue };
+            state.bodies.set_dribbling(index, command.dribbler);
+            if command.kicks() || command.dribbler > 0.0 {
+                self.handling.push(command);
             }
         }
     }
