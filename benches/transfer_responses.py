@@ -50,6 +50,8 @@ class Response:
     """Times of the measurement since the first motion, s."""
     ball_speed: float = 0.0
     """Speed of the ball at the start, m/s; one that is kicked lies in the mouth."""
+    then: Mapping[str, float] = field(default_factory=dict)
+    """Numbers by column of the commands that follow; those that the command lacks are 0."""
 
     @property
     def is_kick(self) -> bool:
@@ -81,6 +83,21 @@ def _vsss() -> tuple[Response, ...]:
     return (
         Response("roll 1 m/s", "ball", {}, 0.0, (0.1, 0.3, 0.6), ball_speed=1.0),
         Response("both wheels 30 rad/s for 1 s", "robot", both, 1.0, (0.2, 0.5, 1.0, 2.0)),
+        Response(
+            "both wheels 30 rad/s for 1 s, then 22",
+            "robot",
+            both,
+            1.0,
+            (0.5, 1.0, 1.2, 1.6),
+            then=dict.fromkeys(both, 22.0),
+        ),
+        Response(
+            "wheels 20 and 40 rad/s for 1.5 s",
+            "heading",
+            {"left": 20.0, "right": 40.0},
+            1.5,
+            (0.1, 0.3, 0.7, 1.0),
+        ),
         Response(
             "wheels -20 and 20 rad/s for .5 s",
             "heading",
@@ -169,7 +186,7 @@ def measure(stepper: object, config: SimConfig, response: Response) -> list[floa
         recorder.play({"dribbler": 1.0}, HELD)
         del recorder.rows[:-1]
     recorder.play(response.command, response.seconds)
-    recorder.play({}, max(response.times) + 0.3 - response.seconds)
+    recorder.play(response.then, max(response.times) + 0.3 - response.seconds)
     times, ways = recorder.ways(response.body)
     threshold = MOVED[response.body]
     first = int(np.argmax(ways > threshold))

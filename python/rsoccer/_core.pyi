@@ -544,6 +544,14 @@ class RobotModel:
         """Maximum acceleration that the tires transmit along the axle (m/s², above 0)."""
 
     @property
+    def tipping_friction(self) -> float:
+        """Friction of a tipping robot's body by that of its tires; 0 for none (0 or above)."""
+
+    @property
+    def skid_slip(self) -> float:
+        """Slip of braking tires at which a robot tips and skids; 0: never (m/s, 0 or above)."""
+
+    @property
     def wheel_distance(self) -> float:
         """Distance from the center to the point where a wheel meets the floor (m, above 0)."""
 

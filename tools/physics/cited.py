@@ -208,6 +208,8 @@ class VssRobot:
     lateral_grip: float  # m/s², along the axle
     height: float
     motor_torque: float
+    tipping_friction: float = 0.0  # by the force of the tires, 0 for a robot that does not tip
+    skid_slip: float = 0.0  # m/s, 0 for a robot that never skids as it brakes
 
 
 VSS_ROBOTS = {
@@ -222,8 +224,8 @@ VSS_ROBOTS = {
 }
 VSS_MIMICS = {
     "vss_firasim": VssRobot(
-        "FIRASim: step responses, grip by `rsoccer identify`, mass of its configuration",
-        *(0.075, 1.4, 0.02, 0.085, 59.9 * 30 / pi, 1.08, 0.61, 0.075, 0.0725),
+        "FIRASim: step responses; mass and torque of its configuration",
+        *(0.075, 1.4, 0.02, 0.08, 59.9 * 30 / pi, 4.03, 40.0, 0.075, 0.11, 0.69, 0.15),
     ),
 }
 

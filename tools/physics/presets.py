@@ -171,6 +171,7 @@ def vss_table() -> str:
         "top speed, angular velocity (m/s, rad/s)",
         "torque per wheel (N m)",
         "grip forward / sideways (m/s²)",
+        "tipping friction / skid slip (m/s)",
         "source",
     )
     rows = []
@@ -185,6 +186,7 @@ def vss_table() -> str:
                 _numbers(robot, "top_speed", "top_angular_velocity"),
                 _numbers(robot, "motor_torque"),
                 _numbers(robot, "longitudinal_grip", "lateral_grip"),
+                _numbers(robot, "tipping_friction", "skid_slip"),
                 cited.source,
             )
         )

@@ -37,6 +37,7 @@ mod soak;
 mod spinning;
 mod squeeze;
 mod stub;
+mod tipping;
 mod tires;
 mod trains;
 

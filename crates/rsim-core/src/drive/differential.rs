@@ -4,8 +4,12 @@
 //! that stands holds whatever pushes it less. Only tires that slide all the same are iterated for.
 
 mod sliding;
+mod tipping;
+
+pub(super) use tipping::TippingState;
 
 use serde::{Deserialize, Serialize};
+use tipping::Tipping;
 
 use super::{Driven, MAX_COLUMNS, OwnMotion, WheelEffect};
 use crate::blocks::{LANES, Lanes, VectorLanes, lanes_of, larger, limited, smaller};
@@ -46,6 +50,8 @@ pub(super) struct Wheels {
     max_held: Lanes,
     /// Friction (m/s) that stops a slip of 1 m/s of one tire against the other.
     stop_turning: Lanes,
+    /// `None` if no robot tips.
+    tipping: Option<Tipping>,
 }
 
 /// Slip of the two tires over the floor, m/s: the velocity of their contact patches.
@@ -102,6 +108,7 @@ impl Wheels {
             own_and_other: own * own - other * other,
             max_held: (own + other.abs()) * drive,
             stop_turning: Lanes::splat(0.25) / turning,
+            tipping: Tipping::of(robots),
         }
     }
 
@@ -114,15 +121,23 @@ impl Wheels {
         mask: Lanes,
         command: &[Lanes; MAX_COLUMNS],
         own: &OwnMotion,
+        tipped: &mut TippingState,
     ) -> WheelEffect {
         let rims = [command[0], command[1]]
             .map(|speed| self.wheel_radius * limited(speed, self.max_wheel_speed));
         let mut slip = self.slip(own.velocity, own.angular_velocity, rims);
+        let mut load = own.load;
+        if let Some(tipping) = &self.tipping {
+            let skids = tipping.skids(tipped, slip.along, own.velocity.x);
+            let rims = rims.map(|rim| skids.bitselect(Lanes::ZERO, rim));
+            slip = self.slip(own.velocity, own.angular_velocity, rims);
+            load.x += tipped.drag;
+        }
         let (mut holding, mut holds) = self.holding(&slip, mask);
-        if own.load != VectorLanes::ZERO || own.angular_load != Lanes::ZERO {
+        if load != VectorLanes::ZERO || own.angular_load != Lanes::ZERO {
             // Tires that hold also compensate the load of the last tick. Those that slide give their
             // maximum whatever the load.
-            let added = self.slip(own.load, own.angular_load, [Lanes::ZERO; 2]);
+            let added = self.slip(load, own.angular_load, [Lanes::ZERO; 2]);
             slip.along = [0, 1].map(|wheel| slip.along[wheel] + (holds & added.along[wheel]));
             slip.across += holds & added.across;
             (holding, holds) = self.holding(&slip, mask);
@@ -133,8 +148,13 @@ impl Wheels {
             holding.where_else(holds, &self.sliding(&slip))
         };
         let [left, right] = friction.along;
+        let mut forward = left + right;
+        if let Some(tipping) = &self.tipping {
+            tipped.drag = tipping.drag(friction.along, own.velocity.x + forward);
+            forward += tipped.drag;
+        }
         WheelEffect {
-            velocity: VectorLanes { x: left + right, y: friction.across },
+            velocity: VectorLanes { x: forward, y: friction.across },
             angular_velocity: (right - left) * self.turn,
             change: VectorLanes::ZERO,
         }

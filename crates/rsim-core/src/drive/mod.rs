@@ -10,6 +10,8 @@ pub(crate) use omni::WheelMap;
 
 use serde::{Deserialize, Serialize};
 
+use differential::TippingState;
+
 use crate::blocks::{
     BALL, LANES, Lanes, VectorLanes, blocks_of, mask_of, mask_of_bits, place_of, robot,
 };
@@ -207,6 +209,7 @@ pub(crate) struct DriveState {
     expected_velocity: VectorLanes,
     /// Angular velocity after the tick without contacts, rad/s.
     expected_angular_velocity: Lanes,
+    tipping: TippingState,
 }
 
 impl DriveState {
@@ -217,18 +220,19 @@ impl DriveState {
         change: VectorLanes::ZERO,
         expected_velocity: VectorLanes::ZERO,
         expected_angular_velocity: Lanes::ZERO,
+        tipping: TippingState::UPRIGHT,
     };
 
     /// Gives the robot in `lane` wheels before their first tick.
     pub(crate) fn clear(&mut self, lane: usize) {
-        let Self { load, angular_load, change, expected_velocity, expected_angular_velocity } =
-            self;
+        let Self { load, angular_load, change, expected_velocity, .. } = self;
         for vector in [load, change, expected_velocity] {
             vector.set(lane, Vector::ZERO);
         }
-        for number in [angular_load, expected_angular_velocity] {
+        for number in [angular_load, &mut self.expected_angular_velocity] {
             number.as_mut_array()[lane] = 0.0;
         }
+        self.tipping.clear(lane);
     }
 
     /// Accelerations of the robots by their wheels, which follow `commands` for a tick.
@@ -254,7 +258,8 @@ impl DriveState {
         let BlockCommands(command) = commands;
         let mut effect = WheelEffect::NONE;
         if let Some(Mounted { mask, wheels }) = &wheels.differential {
-            effect = wheels.effect(*mask, command, &own).where_else(*mask, &effect);
+            effect =
+                wheels.effect(*mask, command, &own, &mut self.tipping).where_else(*mask, &effect);
         }
         if let Some(Mounted { mask, wheels }) = &wheels.omni {
             let target = wheels.target_of_velocity(command);

@@ -115,6 +115,10 @@ numbers! {
         longitudinal_grip: Positive, "m/s²";
         /// Maximum acceleration that the tires transmit along the axle.
         lateral_grip: Positive, "m/s²";
+        /// Friction of a tipping robot's body by that of its tires; 0 for none.
+        tipping_friction: NotNegative, "1";
+        /// Slip of braking tires at which a robot tips and skids; 0: never.
+        skid_slip: NotNegative, "m/s";
     }
 }
 

@@ -29,6 +29,8 @@ impl RobotModel {
             motor_torque: 0.0725,
             longitudinal_grip: 6.85,
             lateral_grip: 9.81,
+            tipping_friction: 0.0,
+            skid_slip: 0.0,
         }),
         mouth: None,
         restitution: 0.2, // TIGERs' simulator, robot on robot
@@ -49,23 +51,28 @@ impl RobotModel {
             motor_torque: 0.073,
             longitudinal_grip: 0.6 * 9.81,
             lateral_grip: 0.6 * 9.81,
+            tipping_friction: 0.0,
+            skid_slip: 0.0,
         }),
         ..Self::VSS_440RPM
     };
 
-    /// The robot of `FIRASim` (8955749) as it moves there: radius of the wheels, track and top speed by step
-    /// responses, grip by `rsoccer identify` from a log of `benches.transfer_logs`, mass of its `Parsian.ini`, body
-    /// and two wheels.
+    /// The robot of `FIRASim` (8955749) as it moves there: radius of the wheels, track, top speed, accelerations and
+    /// slip of a robot that tips by step responses (`benches.transfer_responses`); mass of body and two wheels and torque
+    /// of its `Parsian.ini`. Friction sideways does not depend there on that along the wheels; a grip that is hardly
+    /// used up comes near it.
     pub const VSS_FIRASIM: Self = Self {
         name: Cow::Borrowed("vss_firasim"),
         mass: 1.4,
         drive: Drive::Differential(DifferentialDrive {
             wheel_radius: 0.02,
-            track_width: 0.085,
+            track_width: 0.08,
             max_wheel_speed: 59.9,
-            motor_torque: 0.0725,
-            longitudinal_grip: 1.08,
-            lateral_grip: 0.61,
+            motor_torque: 0.11,
+            longitudinal_grip: 4.03,
+            lateral_grip: 40.0,
+            tipping_friction: 0.69,
+            skid_slip: 0.15,
         }),
         ..Self::VSS_440RPM
     };
