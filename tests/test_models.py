@@ -1,6 +1,7 @@
 """Custom fields, robots and balls, and their configurations: errors and representations."""
 
 import re
+import json
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -53,6 +54,15 @@ def test_a_robot_has_only_the_parameters_of_its_drive() -> None:
     assert not hasattr(vss, "radius")
     assert not hasattr(vss, "wheel_angles")
     assert hasattr(RobotModel("ssl_generic"), "wheel_angles")
+
+
+def test_a_robot_of_a_file_without_numbers_of_tipping_does_not_tip() -> None:
+    parts = json.loads(RobotModel("vss_firasim").to_json())
+    drive = parts["drive"]["Differential"]
+    assert drive.pop("tipping_friction") > 0.0
+    assert drive.pop("skid_slip") > 0.0
+    model = RobotModel.from_json(json.dumps(parts))
+    assert (model.tipping_friction, model.skid_slip) == (0.0, 0.0)
 
 
 def test_representations() -> None:

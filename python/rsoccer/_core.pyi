@@ -545,11 +545,11 @@ class RobotModel:
 
     @property
     def tipping_friction(self) -> float:
-        """Friction of a tipping robot's body by that of its tires; 0 for none (0 or above)."""
+        """Friction of a tipping body, divided by that of its tires; 0 for none (0 to 1)."""
 
     @property
     def skid_slip(self) -> float:
-        """Slip of braking tires at which a robot tips and skids; 0: never (m/s, 0 or above)."""
+        """Slip of both braking tires beyond which a robot skids; 0: never (m/s, 0 or above)."""
 
     @property
     def wheel_distance(self) -> float:

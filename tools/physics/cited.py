@@ -210,6 +210,8 @@ class VssRobot:
     motor_torque: float
     tipping_friction: float = 0.0  # by the force of the tires, 0 for a robot that does not tip
     skid_slip: float = 0.0  # m/s, 0 for a robot that never skids as it brakes
+    restitution: float = 0.2  # of robots and walls, as the mean of both
+    friction: float = 0.2
 
 
 VSS_ROBOTS = {
@@ -224,8 +226,8 @@ VSS_ROBOTS = {
 }
 VSS_MIMICS = {
     "vss_firasim": VssRobot(
-        "FIRASim: step responses; mass and torque of its configuration",
-        *(0.075, 1.4, 0.02, 0.08, 59.9 * 30 / pi, 4.03, 40.0, 0.075, 0.11, 0.69, 0.15),
+        "FIRASim: step responses, glancing pushes; mass and torque of its configuration",
+        *(0.075, 1.4, 0.02, 0.08, 59.9 * 30 / pi, 4.03, 40.0, 0.075, 0.11, 0.69, 0.15, 0.0, 0.3),
     ),
 }
 

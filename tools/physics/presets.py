@@ -172,6 +172,7 @@ def vss_table() -> str:
         "torque per wheel (N m)",
         "grip forward / sideways (m/s²)",
         "tipping friction / skid slip (m/s)",
+        "restitution / friction",
         "source",
     )
     rows = []
@@ -187,6 +188,7 @@ def vss_table() -> str:
                 _numbers(robot, "motor_torque"),
                 _numbers(robot, "longitudinal_grip", "lateral_grip"),
                 _numbers(robot, "tipping_friction", "skid_slip"),
+                _numbers(robot, "restitution", "friction"),
                 cited.source,
             )
         )

@@ -1,7 +1,7 @@
 //! Two-wheeled robots that tip: their bodies rub over the floor, and they skid to a stop after a sudden brake.
 
-use rsim_core::scenes::{Scene, lone_robot, robots};
-use rsim_core::{DifferentialDrive, Drive, RobotModel};
+use rsim_core::scenes::{self, Driver, Scene, lone_robot, robots};
+use rsim_core::{Batch, DifferentialDrive, Drive, RobotModel};
 
 /// Acceleration of the tires and of the body's friction, m/s².
 const TIRES: f32 = 4.0;
@@ -60,8 +60,49 @@ fn friction_of_the_body_is_against_the_motion_whatever_the_tires_do() {
 
 #[test]
 fn a_robot_that_drives_at_its_speed_rubs_nowhere() {
-    let speeds = driven(tipping(0.0), &[(STRAIGHT, 60)]);
+    let speeds = driven(tipping(0.15), &[(STRAIGHT, 60)]);
+    assert!((speeds[20][0] - 21.0 * 0.03).abs() < 1e-3, "it tips while it gets faster");
     assert!(speeds[40..].iter().all(|[speed, _]| (speed - 1.0).abs() < 1e-4), "{speeds:?}");
+}
+
+/// Way of a standing robot at the center that a robot of its mass pushes along +x with a force by their mass, m/s²,
+/// for 10 s.
+fn pushed(degrees: f32, force: f32) -> f32 {
+    let mut config = scenes::vss(1, 1);
+    (config.field.length, config.field.width) = (12.0, 4.0);
+    let Drive::Differential(drive) = model(0.0, 0.0).drive else { panic!("two wheels") };
+    let drive = DifferentialDrive { longitudinal_grip: force, ..drive };
+    let pusher = RobotModel { drive: Drive::Differential(drive), ..model(0.0, 0.0) };
+    (config.blue, config.yellow) = (vec![tipping(0.15)], vec![pusher]);
+    let poses = [[0.0, 0.0, degrees], [-0.0751, 0.0, 0.0]];
+    let commands = vec![vec![0.0, 0.0], vec![40.0, 40.0]];
+    let mut scene = Scene::at("pushed", config, &poses, Driver::Constant(commands));
+    scene.set_ball([0.0, 1.5], [0.0, 0.0]);
+    robots(&scene.after(400)).next().expect("a robot")[0]
+}
+
+#[test]
+fn a_standing_robot_holds_what_its_tires_and_its_body_hold() {
+    for degrees in [0.0, 180.0] {
+        for share in [0.3, 0.9, 1.4] {
+            let way = pushed(degrees, share * TIRES);
+            assert!(way.abs() < 2e-3, "{degrees} degrees, {share} of the tires: {way} m");
+        }
+        assert!(pushed(degrees, 1.1 * (TIRES + BODY)) > 0.5, "more than both");
+    }
+}
+
+#[test]
+fn robots_of_the_same_block_that_do_not_tip_keep_their_bits() {
+    let others = |first: RobotModel| {
+        let mut config = scenes::vss(3, 0);
+        config.blue = vec![first, RobotModel::VSS_440RPM, RobotModel::VSS_650RPM];
+        let poses = [[0.0, 0.5, 0.0], [-0.3, 0.0, 20.0], [-0.3, -0.4, 90.0]];
+        let commands = vec![vec![40.0, 35.0], vec![40.0, 20.0], vec![-30.0, 30.0]];
+        let scene = Scene::at("a block", config, &poses, Driver::Constant(commands));
+        robots(&scene.after(30)).skip(1).flatten().map(|x| x.to_bits()).collect::<Vec<_>>()
+    };
+    assert_eq!(others(tipping(0.15)), others(RobotModel::VSS_440RPM));
 }
 
 #[test]
@@ -96,19 +137,47 @@ fn a_sudden_brake_of_both_wheels_skids_to_a_stop_whatever_is_commanded_then() {
 }
 
 #[test]
-fn a_robot_that_has_skidded_to_a_stop_obeys_again_and_a_placed_one_does_not_skid() {
+fn a_robot_that_has_skidded_to_a_stop_obeys_again() {
     let speeds = driven(tipping(0.15), &[(STRAIGHT, 60), ([-50.0; 2], 20)]);
     assert!(speeds[79][0] < -0.25, "{speeds:?}");
-    let mut scene = alone(tipping(0.15));
-    let mut world = scene.world();
-    for wheels in [vec![STRAIGHT; 60], vec![[0.0; 2]]].concat() {
-        world.step(&wheels).expect("finite");
+}
+
+/// A batch of one robot that skids, and its row.
+fn skidding(scene: &Scene) -> (Batch, Vec<f32>) {
+    let (mut batch, mut rows) = scene.batch(1, 1);
+    for wheels in [vec![STRAIGHT; 60], vec![[0.0; 2]; 2]].concat() {
+        batch.step(&wheels, &mut rows, None).expect("finite");
     }
-    scene.set_robot_column(0, "v_x", 1.0);
-    world.place(&scene.start, None).expect("valid");
-    let mut row = scene.start.clone();
-    world.step(&STRAIGHT).expect("finite");
-    world.write_row(&mut row);
-    let speed = robots(&row).next().expect("a robot")[4];
-    assert!((speed - 1.0).abs() < 1e-3, "{speed}");
+    (batch, rows)
+}
+
+/// Speed after a step straight on.
+fn next_speed(batch: &mut Batch, rows: &mut [f32]) -> f32 {
+    batch.step(&STRAIGHT, rows, None).expect("finite");
+    robots(rows).next().expect("a robot")[4]
+}
+
+#[test]
+fn a_robot_that_is_put_elsewhere_does_not_skid_any_more() {
+    let scene = alone(tipping(0.15));
+    let (mut batch, mut rows) = skidding(&scene);
+    let skidded = next_speed(&mut batch, &mut rows);
+    assert!(skidded < 0.8, "{skidded}");
+    let (mut batch, mut rows) = skidding(&scene);
+    let mut moving = alone(tipping(0.15));
+    moving.set_robot_column(0, "v_x", 0.9);
+    batch.reposition_robots(&[true], &[true], &moving.start, &mut rows).expect("valid");
+    let speed = next_speed(&mut batch, &mut rows);
+    assert!((speed - 0.93).abs() < 1e-3, "{speed}");
+}
+
+#[test]
+fn a_skid_is_part_of_a_snapshot() {
+    let scene = alone(tipping(0.15));
+    let (mut batch, mut rows) = skidding(&scene);
+    let saved = batch.snapshot();
+    let on = next_speed(&mut batch, &mut rows);
+    let (mut other, _) = scene.batch(1, 1);
+    other.restore(&saved).expect("its own");
+    assert_eq!(next_speed(&mut other, &mut rows).to_bits(), on.to_bits());
 }

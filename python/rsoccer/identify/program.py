@@ -173,7 +173,8 @@ def _wheel_steps(model: RobotModel, speed: float, turn: float) -> Iterator[Step]
     """Steps of wheel speeds, there and back: straight, on the spot, and along arcs."""
     forward = speed / model.wheel_radius
     turning = 0.5 * turn * model.track_width / model.wheel_radius
-    seconds = 1.5 * speed / model.longitudinal_grip
+    acceleration = model.longitudinal_grip * max(1.0 - model.tipping_friction, 0.1)
+    seconds = 1.5 * speed / acceleration
     for level in LEVELS:
         straight, spot = level * forward, level * turning
         for left, right in (

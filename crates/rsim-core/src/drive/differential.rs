@@ -113,7 +113,7 @@ impl Wheels {
     }
 
     /// Effect of the wheels that follow the speeds `[left, right, ..]`, rad/s, in a tick, for the robots
-    /// of `mask`.
+    /// of `mask`, whose tipping is in `state`.
     ///
     /// Rims turn as commanded; friction acts on each tire against its slip at the end of the tick.
     pub(super) fn effect(
@@ -121,17 +121,17 @@ impl Wheels {
         mask: Lanes,
         command: &[Lanes; MAX_COLUMNS],
         own: &OwnMotion,
-        tipped: &mut TippingState,
+        state: &mut TippingState,
     ) -> WheelEffect {
         let rims = [command[0], command[1]]
             .map(|speed| self.wheel_radius * limited(speed, self.max_wheel_speed));
         let mut slip = self.slip(own.velocity, own.angular_velocity, rims);
         let mut load = own.load;
         if let Some(tipping) = &self.tipping {
-            let skids = tipping.skids(tipped, slip.along, own.velocity.x);
+            let skids = tipping.update_skids(state, mask, slip.along, own.velocity.x);
             let rims = rims.map(|rim| skids.bitselect(Lanes::ZERO, rim));
             slip = self.slip(own.velocity, own.angular_velocity, rims);
-            load.x += tipped.drag;
+            load.x += state.drag;
         }
         let (mut holding, mut holds) = self.holding(&slip, mask);
         if load != VectorLanes::ZERO || own.angular_load != Lanes::ZERO {
@@ -150,8 +150,9 @@ impl Wheels {
         let [left, right] = friction.along;
         let mut forward = left + right;
         if let Some(tipping) = &self.tipping {
-            tipped.drag = tipping.drag(friction.along, own.velocity.x + forward);
-            forward += tipped.drag;
+            let velocity = own.velocity.x + own.load.x + forward;
+            state.drag = mask & tipping.drag(friction.along, velocity);
+            forward += state.drag;
         }
         WheelEffect {
             velocity: VectorLanes { x: forward, y: friction.across },

@@ -225,14 +225,26 @@ impl DriveState {
 
     /// Gives the robot in `lane` wheels before their first tick.
     pub(crate) fn clear(&mut self, lane: usize) {
-        let Self { load, angular_load, change, expected_velocity, .. } = self;
+        let Self {
+            load,
+            angular_load,
+            change,
+            expected_velocity,
+            expected_angular_velocity,
+            tipping,
+        } = self;
         for vector in [load, change, expected_velocity] {
             vector.set(lane, Vector::ZERO);
         }
-        for number in [angular_load, &mut self.expected_angular_velocity] {
+        for number in [angular_load, expected_angular_velocity] {
             number.as_mut_array()[lane] = 0.0;
         }
-        self.tipping.clear(lane);
+        tipping.set_upright(mask_of_bits(1 << lane));
+    }
+
+    /// Puts the robots of `mask` on their wheels, of which something tells that they do not tip.
+    pub(crate) fn set_upright(&mut self, mask: Lanes) {
+        self.tipping.set_upright(mask);
     }
 
     /// Accelerations of the robots by their wheels, which follow `commands` for a tick.

@@ -115,9 +115,11 @@ numbers! {
         longitudinal_grip: Positive, "m/s²";
         /// Maximum acceleration that the tires transmit along the axle.
         lateral_grip: Positive, "m/s²";
-        /// Friction of a tipping robot's body by that of its tires; 0 for none.
-        tipping_friction: NotNegative, "1";
-        /// Slip of braking tires at which a robot tips and skids; 0: never.
+        /// Friction of a tipping body, divided by that of its tires; 0 for none.
+        #[serde(default)]
+        tipping_friction: Fraction, "1";
+        /// Slip of both braking tires beyond which a robot skids; 0: never.
+        #[serde(default)]
         skid_slip: NotNegative, "m/s";
     }
 }

@@ -74,6 +74,8 @@ impl RobotModel {
             tipping_friction: 0.69,
             skid_slip: 0.15,
         }),
+        restitution: 0.0, // its contacts of robots have none
+        friction: 0.3,    // by glancing pushes there
         ..Self::VSS_440RPM
     };
 

@@ -113,6 +113,10 @@ impl DrivenRobots {
         self.drive(elapsed, orders);
         self.time = frame.time;
         self.tracks.update(frame, &self.filters);
+        // The model was wrong for these, perhaps in taking them to skid.
+        for (wheels, track) in self.wheels.iter_mut().zip(&self.tracks.blocks) {
+            wheels.set_upright(track.pushed());
+        }
         self.resting.take(frame, elapsed, sensing);
         let known = self.held;
         self.held = beams.zip(held).map(|(beams, held)| {

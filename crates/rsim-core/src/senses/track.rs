@@ -59,6 +59,11 @@ impl TrackBlock {
         &self.motion
     }
 
+    /// The mask of the bodies that their last position has shown to be pushed.
+    pub(super) fn pushed(&self) -> Lanes {
+        self.positions.simd_eq(Lanes::ONE)
+    }
+
     /// Time since the last detection of a body, s.
     pub(super) fn unseen(&self, lane: usize) -> f32 {
         self.unseen.as_array()[lane]
