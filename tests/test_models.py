@@ -1,7 +1,7 @@
 """Custom fields, robots and balls, and their configurations: errors and representations."""
 
-import re
 import json
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
