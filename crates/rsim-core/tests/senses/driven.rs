@@ -2,7 +2,7 @@
 
 use rsim_core::columns::{ball_column, robot_column, row_size};
 use rsim_core::scenes::{self, Driver, Scene};
-use rsim_core::{Knowledge, Sensing};
+use rsim_core::{Knowledge, RobotModel, Sensing};
 
 use super::{begin, moments};
 
@@ -59,6 +59,20 @@ fn commands_average_the_noise_of_cameras_over_a_longer_time() {
             let sensed = error(&scene, &prompt, Knowledge::Blue, (Some(0), name));
             assert!(driven < 0.5 * sensed, "{} {name}: {driven} and {sensed}", scene.name);
         }
+    }
+}
+
+#[test]
+fn robots_that_tip_are_known_better_by_those_who_know_their_commands_too() {
+    let [mut scene, _] = apart();
+    for model in scene.config.blue.iter_mut().chain(&mut scene.config.yellow) {
+        *model = RobotModel::VSS_FIRASIM;
+    }
+    let prompt = Sensing { delay: 0.0, forecast: 0.0, ..late() };
+    for name in ["v_x", "v_theta"] {
+        let driven = error(&scene, &late(), Knowledge::Blue, (Some(0), name));
+        let sensed = error(&scene, &prompt, Knowledge::Blue, (Some(0), name));
+        assert!(driven < 0.5 * sensed, "{name}: {driven} and {sensed}");
     }
 }
 
