@@ -56,6 +56,11 @@ pub(crate) fn set_bits(mut bits: u64) -> impl Iterator<Item = usize> {
     })
 }
 
+/// The bits at these positions.
+pub(crate) fn bits_of(positions: impl Iterator<Item = usize>) -> u64 {
+    positions.fold(0, |bits, position| bits | 1 << position)
+}
+
 /// The numbers of a block, by lane.
 pub(crate) fn lanes_of(number: impl FnMut(usize) -> f32) -> Lanes {
     Lanes::from(std::array::from_fn::<f32, LANES, _>(number))
@@ -258,6 +263,7 @@ mod tests {
         assert_eq!(set_bits(0b1001_0010).collect::<Vec<_>>(), [1, 4, 7]);
         assert_eq!(set_bits(1 << 63).collect::<Vec<_>>(), [63]);
         assert_eq!(set_bits(0).count(), 0);
+        assert_eq!(bits_of(set_bits(0b1001_0010)), 0b1001_0010);
     }
 
     #[test]

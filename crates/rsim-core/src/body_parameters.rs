@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::ball::impact::ContactBody;
-use crate::blocks::{BALL, Lanes, place_of, robot};
+use crate::blocks::{BALL, Lanes, bits_of, place_of, robot};
 use crate::columns::{BALL_PARAMETERS, MAX_FACTOR, ROBOT_PARAMETERS};
 use crate::drive::{BlockWheels, WheelMap, wheels_of};
 use crate::error::ConfigError;
@@ -135,8 +135,8 @@ impl BodyParameters {
             inertia[block].set(lane, inverse, body.bounding_radius);
         }
         let highest = robots.iter().map(|body| body.model.height).fold(0.0, f32::max);
-        let mouths = robots.iter().enumerate().filter(|(_, robot)| robot.model.mouth.is_some());
-        let mouths = mouths.fold(0, |all, (index, _)| all | 1 << index);
+        let has_mouth = |index: &usize| robots[*index].model.mouth.is_some();
+        let mouths = bits_of((0..robots.len()).filter(has_mouth));
         Self { ball, robots, wheels, inertia, highest, mouths }
     }
 

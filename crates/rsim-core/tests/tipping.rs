@@ -8,15 +8,14 @@ const TIRES: f32 = 4.0;
 const BODY: f32 = 2.8;
 
 /// A robot of [`RobotModel::VSS_FIRASIM`] with other numbers.
-fn model(tipping_friction: f32, skid_slip: f32) -> RobotModel {
+fn model(longitudinal_grip: f32, tipping_friction: f32, skid_slip: f32) -> RobotModel {
     let Drive::Differential(drive) = RobotModel::VSS_FIRASIM.drive else { panic!("two wheels") };
-    let longitudinal_grip = TIRES;
     let drive = DifferentialDrive { longitudinal_grip, tipping_friction, skid_slip, ..drive };
     RobotModel { drive: Drive::Differential(drive), ..RobotModel::VSS_FIRASIM }
 }
 
 fn tipping(skid_slip: f32) -> RobotModel {
-    model(BODY / TIRES, skid_slip)
+    model(TIRES, BODY / TIRES, skid_slip)
 }
 
 fn alone(model: RobotModel) -> Scene {
@@ -70,10 +69,7 @@ fn a_robot_that_drives_at_its_speed_rubs_nowhere() {
 fn pushed(degrees: f32, force: f32) -> f32 {
     let mut config = scenes::vss(1, 1);
     (config.field.length, config.field.width) = (12.0, 4.0);
-    let Drive::Differential(drive) = model(0.0, 0.0).drive else { panic!("two wheels") };
-    let drive = DifferentialDrive { longitudinal_grip: force, ..drive };
-    let pusher = RobotModel { drive: Drive::Differential(drive), ..model(0.0, 0.0) };
-    (config.blue, config.yellow) = (vec![tipping(0.15)], vec![pusher]);
+    (config.blue, config.yellow) = (vec![tipping(0.15)], vec![model(force, 0.0, 0.0)]);
     let poses = [[0.0, 0.0, degrees], [-0.0751, 0.0, 0.0]];
     let commands = vec![vec![0.0, 0.0], vec![40.0, 40.0]];
     let mut scene = Scene::at("pushed", config, &poses, Driver::Constant(commands));
@@ -108,7 +104,7 @@ fn robots_of_the_same_block_that_do_not_tip_keep_their_bits() {
 #[test]
 fn turns_on_the_spot_are_those_of_the_tires_and_slow_a_robot_that_drives() {
     let turn = [([-20.0, 20.0], 3)];
-    assert_eq!(driven(tipping(0.0), &turn), driven(model(0.0, 0.0), &turn));
+    assert_eq!(driven(tipping(0.0), &turn), driven(model(TIRES, 0.0, 0.0), &turn));
     let speeds = driven(tipping(0.0), &[(STRAIGHT, 20), ([60.0, -55.0], 2)]);
     let change = speeds[19][0] - speeds[21][0];
     assert!((change - BODY * 0.05).abs() < 0.01, "{speeds:?}");

@@ -8,9 +8,8 @@ mod omni;
 
 pub(crate) use omni::WheelMap;
 
-use serde::{Deserialize, Serialize};
-
 use differential::TippingState;
+use serde::{Deserialize, Serialize};
 
 use crate::blocks::{
     BALL, LANES, Lanes, VectorLanes, blocks_of, mask_of, mask_of_bits, place_of, robot,

@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::ball::mouth::beam_is_cut;
 use crate::blocks::{
-    BALL, Lanes, VectorLanes, blocks_of, lanes_of_robots, mask_of_bits, place_of, robot, set_bits,
+    BALL, Lanes, VectorLanes, bits_of, blocks_of, lanes_of_robots, mask_of_bits, place_of, robot,
+    set_bits,
 };
 use crate::body_parameters::BodyParameters;
 use crate::geometry::motion_block::MotionBlock;
@@ -148,5 +149,5 @@ fn cut_beams(state: &State, parameters: &BodyParameters) -> u64 {
         let model = &parameters.robots[*index].model;
         beam_is_cut(model, &motion, &parameters.ball, ball, &state.ball)
     };
-    set_bits(parameters.mouths).filter(is_cut).fold(0, |all, index| all | 1 << index)
+    bits_of(set_bits(parameters.mouths).filter(is_cut))
 }

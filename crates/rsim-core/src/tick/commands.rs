@@ -1,7 +1,7 @@
 //! Commands of a control step, read once for all of its ticks.
 
 use crate::ball::mouth::Kicker;
-use crate::blocks::{LANES, mask_of_bits, robot, set_bits};
+use crate::blocks::{lanes_of_robots, mask_of_bits, set_bits};
 use crate::body_parameters::BodyParameters;
 use crate::columns::{OMNI_COLUMNS, OMNI_WHEELS_COLUMNS};
 use crate::drive::BlockCommands;
@@ -46,7 +46,7 @@ impl StepCommands {
         self.wheels.clear();
         self.wheels.extend(blocks.map(|block| BlockCommands::read(commands, columns, block)));
         if state.absent != 0 {
-            self.halt(state.absent << robot(0));
+            self.halt(state.absent);
         }
         self.handling.clear();
         for index in set_bits(parameters.mouths & !state.absent) {
@@ -67,10 +67,10 @@ impl StepCommands {
         }
     }
 
-    /// Commands the wheels of `bodies`, one bit each, to stand still.
-    fn halt(&mut self, bodies: u64) {
+    /// Commands the wheels of `robots`, one bit each, to stand still.
+    fn halt(&mut self, robots: u64) {
         for (block, commands) in self.wheels.iter_mut().enumerate() {
-            commands.halt(mask_of_bits(bodies >> (block * LANES)));
+            commands.halt(mask_of_bits(lanes_of_robots(robots, block).into()));
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Repositioning of the ball, or of some robots, during a match.
 
-use crate::blocks::{robot, set_bits};
+use crate::blocks::{bits_of, robot, set_bits};
 use crate::columns::BALL_COLUMNS;
 use crate::error::PlaceError;
 use crate::state::State;
@@ -65,8 +65,7 @@ impl World {
         if self.state.broken {
             return Err(PlaceError::Lost);
         }
-        let mask =
-            (0..mask.len()).filter(|&index| mask[index]).fold(0, |all, index| all | 1 << index);
+        let mask = bits_of((0..mask.len()).filter(|&index| mask[index]));
         let State { bodies, ball, absent, .. } = &*self.state;
         let motions = (0..bodies.len()).map(|body| bodies.motion(body)).collect();
         let now = Start { motions, ball: *ball, absent: *absent };
