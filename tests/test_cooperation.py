@@ -98,7 +98,7 @@ def test_the_command_prints_and_writes(tmp_path: Path, capsys: pytest.CaptureFix
     path = tmp_path / "found.json"
     options = ["--matches", "4", "--replacements", "zero", "--json", str(path)]
     task = ["--task", "VSSSelfPlay-v0", "--task-options", "max_steps=60"]
-    assert cli.main(["cooperation", "chase", "--opponent", "ou", *task, *options]) == 0
+    assert cli.main(["cooperation", "chase", "--opponents", "ou", *task, *options]) == 0
     printed = capsys.readouterr().out
     assert printed.startswith("VSSSelfPlay-v0: chase against ou, 4 matches each\n")
     assert "replaced by" in printed

@@ -224,7 +224,7 @@ def test_the_version_is_printed(capsys: pytest.CaptureFixture[str]) -> None:
     assert capsys.readouterr().out == f"rsoccer {rsoccer.__version__}, physics {physics}\n"
 
 
-@pytest.mark.parametrize("command", ["evaluate", "watch", "play", "train"])
+@pytest.mark.parametrize("command", ["evaluate", "watch", "play", "train", "cooperation"])
 def test_all_commands_have_one_word_for_opponents(
     command: str, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -3,6 +3,7 @@
 import re
 import subprocess
 import sys
+from collections.abc import Iterator
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -75,15 +76,36 @@ def test_blocks_that_do_not_run_are_python() -> None:
         compile(code, "block", "exec")
 
 
-COMMANDS = sorted(
-    {
-        line.split("#")[0].strip()
-        for page in WRITTEN
-        for block in re.findall(r"^```sh\n(.*?)^```$", page.read_text(), re.DOTALL | re.MULTILINE)
-        for line in block.splitlines()
-        if line.startswith(("rsoccer ", "make "))
-    }
+BLOCK = re.compile(r"^```(\w*)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
+INLINE = re.compile(r"`((?:rsoccer|make) [^`\n]+)`")
+OPTION = re.compile(r"(?<![\w-])--[a-z][\w-]*")
+
+
+def commands(text: str) -> Iterator[str]:
+    """Yield the commands of a page, from blocks of any kind and from within lines."""
+    for _, block in BLOCK.findall(text):
+        for line in block.replace("\\\n", " ").splitlines():
+            if line.startswith(("rsoccer ", "make ")):
+                yield line.split(" #")[0].strip()
+    yield from INLINE.findall(BLOCK.sub("", text))
+
+
+COMMANDS = sorted({line for page in WRITTEN for line in commands(page.read_text())})
+SHELL_BLOCKS = sorted(
+    {block for page in WRITTEN for kind, block in BLOCK.findall(page.read_text()) if kind == "sh"}
 )
+
+
+def test_commands_are_found_in_all_blocks_and_within_lines() -> None:
+    text = "`rsoccer list`\n```\nrsoccer watch \\\n  chase  # a match\n```\n```sh\nmake demo\n```\n"
+    assert list(commands(text)) == ["rsoccer watch    chase", "make demo", "rsoccer list"]
+    assert len(COMMANDS) >= 100
+
+
+@pytest.mark.parametrize("block", SHELL_BLOCKS)
+def test_shell_blocks_have_no_syntax_error(block: str) -> None:
+    ran = subprocess.run(["sh", "-n"], input=block, capture_output=True, text=True, check=False)
+    assert ran.returncode == 0, ran.stderr
 
 
 @pytest.mark.parametrize("line", [line for line in COMMANDS if line.startswith("rsoccer ")])
@@ -95,14 +117,17 @@ def test_commands_have_the_options_that_are_shown(
     with pytest.raises(SystemExit) as left:
         cli.main([words[1], "--help"])
     assert left.value.code == 0
-    shown = capsys.readouterr().out
-    for option in (word for word in words if word.startswith("--")):
+    shown = set(OPTION.findall(capsys.readouterr().out))
+    assert shown, f"`rsoccer {words[1]} --help` shows no options"
+    for option in OPTION.findall(line):
         assert option in shown, f"`rsoccer {words[1]} --help` has no {option}"
 
 
 @pytest.mark.parametrize("line", [line for line in COMMANDS if line.startswith("make ")])
 def test_make_targets_exist(line: str) -> None:
     makefile = (ROOT / "Makefile").read_text()
+    for name, value in re.findall(r"^(\w+) := ([^\s$]+)", makefile, re.MULTILINE):
+        makefile = makefile.replace(f"$({name})", value)
     assert re.search(rf"^{re.escape(line.split()[1])}:", makefile, re.MULTILINE), line
 
 

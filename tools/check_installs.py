@@ -38,6 +38,10 @@ class Install(NamedTuple):
 INSTALLS: Final = {
     ".": Install(HELLO, beside=False),
     "'.[all]'": Install(COMMAND, beside=False),
+    "'.[cli,network]'": Install(
+        "import sys, rsoccer.cli; rsoccer.cli.main(['serve', '-h'])", beside=False
+    ),
+    "'.[data]'": Install("import minari, h5py, rsoccer.datasets", beside=False),
     "'rsoccer[render]'": Install(
         "import rsoccer; env = rsoccer.single_env('VSS-v0', 'rgb_array'); env.reset(); env.render()"
     ),

@@ -170,8 +170,9 @@ class Randomization:
             raise TypeError(f"randomization: expected distributions by name, got {ranges!r}")
         parameters: list[tuple[tuple[int, ...], Distribution]] = []
         numbers: list[tuple[tuple[int, ...], Distribution]] = []
-        for name, value in ranges.items():
-            distribution = Distribution.of(name, value)
+        # By name, so that equal mappings draw equally; one noise of both bodies before that of one.
+        for name in sorted(ranges, key=lambda name: (name.partition(".")[2] not in _OF_BOTH, name)):
+            distribution = Distribution.of(name, ranges[name])
             owner, _, number = name.partition(".")
             if owner == "ball" and number in BALL_PARAMETERS:
                 parameters.append(_of_ball(name, number, distribution, config))

@@ -161,6 +161,9 @@ class SoccerEnv(EnvBase):
         }
         self._with_state = checks.boolean("state", state)
         self._metrics = tuple(self.task.metrics(self.matches.play))
+        self._last_metrics: Mapping[str, Floats] = {
+            name: np.zeros(self.matches.worlds, np.float32) for name in self._metrics
+        }
         self._ends = np.zeros((2, self.matches.worlds), np.bool_)  # terminated, truncated
         self._pending_seed: int | None = None
         self._make_specs()
@@ -228,8 +231,11 @@ class SoccerEnv(EnvBase):
         observations = self.matches.reset(seed, mask)
         worlds = slice(None) if mask is None else mask
         self._ends[:, worlds] = False
-        zeros = np.zeros((self.matches.worlds, 1), np.float32)
-        return self._tensors(observations, None, dict.fromkeys(self._metrics, zeros))
+        metrics = {name: values.copy() for name, values in self._last_metrics.items()}
+        for values in metrics.values():
+            values[worlds] = 0.0
+        self._last_metrics = metrics
+        return self._tensors(observations, None, metrics)
 
     def _step(self, tensordict: TensorDictBase) -> TensorDictBase:
         """Advance all matches by one control step."""
@@ -239,6 +245,7 @@ class SoccerEnv(EnvBase):
         terminated, truncated = self._ends
         terminated |= outcome.terminated
         truncated |= outcome.truncated
+        self._last_metrics = outcome.metrics
         return self._tensors(outcome.observations, outcome.rewards, outcome.metrics)
 
     def _step_proc_data(self, next_tensordict_out: TensorDictBase) -> TensorDictBase:

@@ -55,3 +55,12 @@ def test_a_speed_is_a_number_above_0(speed: float) -> None:
         ScaledClock(speed)
     with pytest.raises(ValueError, match="speed: expected 0 or above"):
         ScaledClock().set_speed(speed, 0.0)
+
+
+def test_what_a_faster_clock_owed_is_neither_played_nor_skipped() -> None:
+    clock = ScaledClock(1000.0)
+    run(clock, 10.0)
+    clock.due(10.1)  # 100 s of play
+    clock.set_speed(1.0, 10.1)
+    assert run(clock, 10.1) == int(MAX_LAG / TICK)
+    assert clock.skipped == 0.0

@@ -10,10 +10,12 @@ import pytest
 from rsoccer import Sensing
 from rsoccer.bridge import recording
 from rsoccer.bridge.recording import record
+from rsoccer.game import Command
 from rsoccer.protocols.logs import LogKind, read_log
 from rsoccer.protocols.schemas import simulation_pb2
 from rsoccer.replay import Replay
 from tests.bridge.clients import Wall, local_velocity
+from tests.drive.test_connection import packet_of
 
 
 def play(wall: Wall) -> None:
@@ -53,10 +55,26 @@ def test_a_log(tmp_path: Path) -> None:
     assert all(entry.message() is not None for entry in entries)
 
 
+def test_a_log_has_the_packets_of_a_referee_on_the_network(tmp_path: Path) -> None:
+    wall = Wall(referee="external")
+    packet = packet_of(Command.FORCE_START)
+    with record(wall.server, tmp_path / "match.log"):
+        for _ in range(20):
+            wall.send("referee", packet)
+            wall.send("referee", b"garbage")
+            sent = wall.tick(5)
+            assert "referee" not in {datagram.port for datagram in sent}
+    entries = [e for e in read_log(tmp_path / "match.log") if e.kind == LogKind.REFEREE]
+    assert [entry.data for entry in entries] == [packet] * 20
+
+
 def test_what_cannot_be_recorded_is_refused(tmp_path: Path) -> None:
     wall = Wall()
     with pytest.raises(ValueError, match=r"record: expected a name ending in .rsr"):
         record(wall.server, tmp_path / "match.mp4").__enter__()
+    for name in ("match.rsr.gz", "match.gz"):
+        with pytest.raises(ValueError, match=r"record: expected a name ending in .rsr"):
+            record(wall.server, tmp_path / name).__enter__()
     with pytest.raises(ValueError, match="record: expected a folder that exists"):
         record(wall.server, tmp_path / "no" / "match.rsr").__enter__()
     with pytest.raises(ValueError, match="record: expected a replay"):

@@ -13,7 +13,9 @@ from rsoccer._core import GAME_COLUMNS
 from rsoccer.bridge.arena import Arena
 from rsoccer.bridge.awaited_answers import RESEND_SECONDS
 from rsoccer.bridge.match_tasks import TICK, make_match
+from rsoccer.bridge.settings import Settings
 from rsoccer.bridge.tracker_packets import TrackerPackets
+from rsoccer.game import Command
 from rsoccer.protocols.schemas import (
     grsim_pb2,
     referee_pb2,
@@ -549,3 +551,29 @@ def test_a_kick_off_of_an_external_referee_is_one_team_s_until_the_ball_has_move
 def test_a_served_match_refuses_what_its_one_vision_cannot_tell(name: str) -> None:
     with pytest.raises(ValueError, match=rf"sensing\.{name}: expected 0"):
         Arena(make_match("ssl", "B", None), Sensing("rc2021", **{name: 1}))
+
+
+@pytest.mark.parametrize(("league", "policy"), [("ssl", "strike"), ("vsss", "best")])
+def test_policies_play_a_match_without_a_referee(league: str, policy: str) -> None:
+    wall = Wall(league=league, referee="off", blue=policy, yellow=policy)
+    arena = wall.server.session.arena
+    wall.tick(600)
+    assert np.hypot(*arena.frame.ball.position[0]) > 0.05, "nobody plays the ball"
+    assert arena.play.game.command[0] == Command.FORCE_START
+    assert arena.play.game.may_touch.all()
+
+
+@pytest.mark.parametrize(
+    ("league", "options", "words"),
+    [
+        ("ssl", {"n_blue": 3}, r"options: expected `robots` for .*, got 'n_blue'"),
+        ("ssl", {"division": "A"}, r"options: expected the argument `division`"),
+        ("vsss", {"n_yellow": 3}, r"options: expected `robots` for .*, got 'n_yellow'"),
+        ("vsss", {"field": "vss_5v5"}, r"options: expected `robots`, by which the field follows"),
+    ],
+)
+def test_options_that_the_server_sets_are_refused(
+    league: str, options: dict[str, object], words: str
+) -> None:
+    with pytest.raises(ValueError, match=words):
+        Settings(league=league, options=options)

@@ -109,3 +109,11 @@ def test_the_referee_tells_and_a_team_places_its_robots() -> None:
     wall.tick(2000)
     reported = [vssref_pb2.Command.FromString(e.data) for e in wall.sent if e.port == "referee"]
     assert vssref_pb2.GAME_ON in [each.foul for each in reported]
+
+
+def test_problems_of_a_packet_for_both_teams_are_counted_once() -> None:
+    wall, packet = Wall(league="vsss"), fira_pb2.Packet()
+    for yellow, number in ((False, 0), (True, 1), (False, 9)):
+        packet.cmd.robot_commands.add(yellowteam=yellow, id=number)
+    wall.send("command", packet.SerializeToString())
+    assert wall.server.session.counts["command: parts refused"] == 1

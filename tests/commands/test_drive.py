@@ -50,6 +50,13 @@ def test_a_robot_is_checked(words: list[str], capsys: pytest.CaptureFixture[str]
     assert "use --delay 0" in report.out
 
 
+def test_a_robot_that_is_not_of_the_team_is_not_checked(
+    words: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert cli.main([*words, "--check", "3"]) == cli.WRONG_INPUT
+    assert "check: expected one of the robots [5] (--ids), got 3" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [
@@ -58,7 +65,8 @@ def test_a_robot_is_checked(words: list[str], capsys: pytest.CaptureFixture[str]
         (["--ports", "video=1"], "ports: expected names of"),
         (["--groups", "vision=lo", "--ports", "vision=20998"], "groups: vision: expected an IPv4"),
         (["--ids", "1", "2"], "ids: expected 1 different numbers, got [1, 2]"),
-        (["--to", "firasim"], "peer: expected robots on two wheels with firasim"),
+        (["--to", "firasim"], "task: expected robots on two wheels with firasim, got some with"),
+        (["--to", "firasim", "--groups", "tracker=127.0.0.1"], "groups: expected names of"),
         (["--delay", "2"], "delay: expected 0 to 1, got 2"),
         (["--seconds", "-1"], "seconds: expected 0 to inf, got -1"),
         (["--episodes", "0"], "episodes: expected at least 1, got 0"),

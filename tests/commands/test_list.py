@@ -41,7 +41,7 @@ def test_list_shows_the_senses_and_varied_numbers_of_a_training(
     assert cli.main(["list"]) == 0
     printed = capsys.readouterr().out
     assert "    VSS-v0: not measured\n" in printed
-    assert "    VSS-v0: trained with sensing vsss, robot.mass 0.9 to 1.1\n" in printed
+    assert "    VSS-v0: made for matches with sensing vsss, robot.mass 0.9 to 1.1\n" in printed
 
 
 def test_a_task_whose_options_have_no_defaults_is_listed(

@@ -1,12 +1,13 @@
 """`rsoccer serve`."""
 
+import signal
 from pathlib import Path
 
 import pytest
 
 from rsoccer import cli
 from rsoccer.bridge.sockets import SocketLoop
-from rsoccer.commands.serve import Serve
+from rsoccer.commands.serve import ENDING, Serve
 from rsoccer.protocols.schemas import grsim_pb2
 from rsoccer.replay import Replay
 from tests.bridge.test_sockets import free_port
@@ -53,6 +54,9 @@ def test_a_match_is_served_and_recorded(
         (["--seconds", "-1"], "seconds: expected 0 to inf, got -1"),
         (["--seconds", "nan"], "seconds: expected 0 to inf, got nan"),
         (["--ports", "status_blue=0"], "ports: status_blue: expected at least 1, got 0"),
+        (["--ports", "vision=0"], "ports: expected 1 to 65535 for vision, which is sent, got 0"),
+        (["--robots", "0"], "robots: expected at least 1, got 0"),
+        (["--task-options", "n_blue=3"], "options: expected `robots` for the size of both teams"),
     ],
 )
 def test_wrong_words_are_named(
@@ -71,6 +75,25 @@ def test_wrong_words_are_named(
         == cli.WRONG_INPUT
     )
     assert message in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ENDING)
+def test_a_match_that_is_ended_by_a_signal_is_recorded(
+    name: signal.Signals, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run = SocketLoop.run
+
+    def interrupted(self: SocketLoop, seconds: float | None = None) -> None:
+        run(self, 0.1)
+        signal.raise_signal(name)
+        run(self, seconds)
+
+    monkeypatch.setattr(SocketLoop, "run", interrupted)
+    before = signal.getsignal(name)
+    file = tmp_path / "match.rsr"
+    assert cli.main(["serve", "ssl", "--record", str(file), *ports(*SSL)]) == 0
+    assert Replay.load(file).seconds > 0.05
+    assert signal.getsignal(name) is before
 
 
 def test_ports_and_groups_are_those_of_the_league_unless_given() -> None:

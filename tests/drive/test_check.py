@@ -13,7 +13,9 @@ from rsoccer.drive.connection import Connection
 from rsoccer.drive.link import Received
 from rsoccer.drive.peers import Message
 from rsoccer.drive.settings import Limits
+from rsoccer.game import Command
 from rsoccer.protocols.schemas import simulation_pb2, vision_pb2
+from tests.drive.test_connection import packet_of
 from tests.drive.wires import ServerLink, connected
 
 SSL = SimConfig("ssl_b", 1, 0)
@@ -134,6 +136,34 @@ def test_limits_below_the_speeds_of_the_check_are_refused(limits: Limits, messag
     connection = connected(SSL, link, "ssl-simulation", ids=(5,), limits=limits)
     with pytest.raises(ValueError, match=message):
         check_robot(connection, 0)
+
+
+def test_robots_that_the_task_does_not_have_take_space() -> None:
+    link = ServerLink(referee="off", blue_on_positive_half=True)
+    connection = connected(SSL, link, "ssl-simulation", ids=(5,), blue_on_positive_half=True)
+    command = simulation_pb2.Command()
+    robot = command.control.teleport_robot.add(x=1.2, y=1.5, orientation=0.0)
+    robot.id.id, robot.id.team = 0, simulation_pb2.YELLOW
+    link.server.receive("control", command.SerializeToString(), ("127.0.0.1", 5109), link.now)
+    with pytest.raises(ValueError, match=r"check: expected 0\.47 m of free field .*, got 0\.30 m"):
+        check_robot(connection, 0)
+    assert not link.frame.robots.velocity[0, 5].round(3).any()
+
+
+@pytest.mark.parametrize(
+    ("command", "word"), [(Command.STOP, "STOP"), (Command.HALT, "HALT"), (None, None)]
+)
+def test_a_referee_that_keeps_robots_away_is_refused(
+    command: Command | None, word: str | None
+) -> None:
+    link = ServerLink(referee="off")
+    required = {"referee": "require"} if command is None else {}
+    connection = connected(SSL, link, "ssl-simulation", ids=(5,), **required)
+    if command is not None:
+        link.give("referee", packet_of(command))
+    with pytest.raises(ValueError, match=f"--referee ignore`, got {word or 'no packet'}"):
+        check_robot(connection, 0)
+    assert not link.frame.robots.velocity[0, 5].round(3).any()
 
 
 def test_a_robot_needs_space_and_must_be_driven() -> None:

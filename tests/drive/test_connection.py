@@ -100,6 +100,75 @@ def test_robots_stop_without_vision_and_go_on_with_new_commands_alone() -> None:
     assert connection.sight.clock.jumps == 1
 
 
+def test_robots_near_the_ball_stand_without_vision_in_a_stop() -> None:
+    """With vision they keep away from the ball; blind, they must not drive at all."""
+    link = ServerLink(referee="off")
+    connection = connected(ONE, link, "ssl-simulation", ids=(5,), patience=2.0)
+    command = simulation_pb2.Command()
+    robot = command.control.teleport_robot.add(x=0.3, y=0.0, orientation=0.0)
+    robot.id.id, robot.id.team = 5, simulation_pb2.BLUE
+    link.server.receive("control", command.SerializeToString(), OTHER, link.now)
+    link.give("referee", packet_of(Command.STOP))
+    connection.begin()
+    stands = np.zeros((1, len(ONE.command_columns)), np.float32)
+    connection.sight.read(connection.frame.rows)
+    connection.advance(stands, connection.sight.clock.now + 0.025)
+    assert speeds(link.messages)[-1] == pytest.approx(0.5), "it keeps away from the ball"
+    link.heard = {"referee"}
+    sent = len(link.messages)
+    with pytest.raises(ConnectionError):
+        connection.advance(stands, connection.sight.clock.now + 0.025)
+    found = speeds(link.messages[sent:])
+    assert set(found[found.index(0.0) :]) == {0.0}
+    assert len(found) > 100
+    connection.stop()
+    assert speeds(link.messages)[-1] == 0.0
+
+
+def test_robots_that_wait_for_the_others_stand() -> None:
+    link = ServerLink(referee="off")
+    show(link, 3, present=False)
+    connection = connected(CONFIG, link, "ssl-simulation", patience=1.0)
+    link.give("referee", packet_of(Command.STOP))
+    with pytest.raises(ConnectionError, match="without blue 3"):
+        connection.begin()
+    assert len(link.messages) > 50
+    assert set(speeds(link.messages)) == {0.0}
+
+
+def test_a_program_that_was_late_goes_on_with_new_frames_alone() -> None:
+    link = ServerLink(referee="off")
+    events: list[str] = []
+    connection = connected(CONFIG, link, "ssl-simulation")
+    connection.on_event.append(events.append)
+    connection.begin()
+    advance(connection, 0.3)
+    for _ in range(600):  # three seconds, whose frames wait
+        link.tick()
+    sent, real_poll = len(link.messages), link.poll
+    waiting = link.poll(0.0)
+    assert len(waiting) > 100
+
+    def poll(seconds: float) -> list[Received]:
+        """Return a batch, as sockets do."""
+        if waiting:
+            batch = waiting[:64]
+            del waiting[:64]
+            return batch
+        return real_poll(seconds)
+
+    link.poll = poll  # type: ignore[method-assign]
+    begun = link.now
+    advance(connection, 0.025)
+    assert set(speeds(link.messages[sent:])) == {0.0}, "the commands are old"
+    assert connection.now == pytest.approx(link.now - 100.0, abs=0.05)
+    assert link.now < begun + 0.1
+    assert events == ["vision: this program was late, robots stop"]
+    assert connection.counts["vision: late"] == 1
+    advance(connection, 0.3)
+    assert speeds(link.messages)[-1] == pytest.approx(1.0)
+
+
 def test_robots_stop_when_the_frames_stand_still() -> None:
     link = ServerLink(referee="off")
     connection = connected(CONFIG, link, "ssl-simulation", patience=1.0)
@@ -208,7 +277,7 @@ def test_wrong_numbers_are_named(ids: tuple[int, ...], message: str) -> None:
 
 @pytest.mark.parametrize(("peer", "field"), [("grsim", "vss_3v3"), ("firasim", "ssl_b")])
 def test_robots_of_the_other_league_are_refused(peer: str, field: str) -> None:
-    with pytest.raises(ValueError, match=f"peer: expected robots .* with {peer}"):
+    with pytest.raises(ValueError, match=f"task: expected robots .* with {peer}"):
         Connection(SimConfig(field, 1, 0), Settings(peer), link=ServerLink())
 
 

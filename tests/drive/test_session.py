@@ -94,3 +94,36 @@ def test_a_policy_that_does_not_fit_closes_the_connection() -> None:
     with pytest.raises(ValueError, match="nobody"):
         session_of(link, "SSLGoToBall-v0", "ssl-simulation", "nobody")
     assert link.is_closed
+
+
+def test_a_match_without_a_referee_goes_on_by_the_rules_of_the_task() -> None:
+    link = ServerLink(robots=2, referee="off")
+    session = session_of(link, "SSLMatch-v0", "ssl-simulation")
+    events: list[str] = []
+    session.connection.on_event.append(events.append)
+    session.begin()
+    (said,) = events
+    assert said.startswith("referee: none heard so far")
+    game = session.matches.play.game
+    steps = 0
+    while not game.may_touch[0].any():
+        session.step()
+        steps += 1
+        assert steps < 800, "nobody starts the match"
+    link.give("referee", packet_of(session, Command.HALT))
+    session.step()
+    assert game.command[0] == Command.HALT
+    assert game.score[0].tolist() == [3, 1]
+    session.close()
+
+
+def test_a_match_waits_for_a_referee_that_is_required() -> None:
+    link = ServerLink(robots=2, referee="off")
+    session = session_of(link, "SSLMatch-v0", "ssl-simulation", referee="require")
+    session.begin()
+    command = int(session.matches.play.game.command[0])
+    for _ in range(400):
+        session.step()
+    assert int(session.matches.play.game.command[0]) == command
+    assert not session.matches.play.game.may_touch[0].any()
+    session.close()

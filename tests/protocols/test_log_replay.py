@@ -223,3 +223,18 @@ def test_robots_of_both_teams_have_their_slots(tmp_path: Path) -> None:
     found = log_to_replay(tmp_path / "a.log", field="ssl_b").frame
     assert np.allclose(found.blue.position[0, :, 0], [0.1, 0.0, 0.2])
     assert np.allclose(found.yellow.position[0, :, 0], [0.5, 0.4, 0.3, 0.6])
+
+
+@pytest.mark.parametrize("name", ["match.log", "match.log.gz"])
+def test_a_log_that_is_cut_off_ends_where_it_is(
+    name: str, tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    path = replay_to_log(match(), tmp_path / name)
+    whole = log_to_replay(path)
+    assert not caplog.messages
+    data = path.read_bytes()
+    path.write_bytes(data[: len(data) // 2])
+    part = log_to_replay(path)
+    assert 10 < len(part) < len(whole) - 10
+    np.testing.assert_array_equal(part.frame.rows[:10], whole.frame.rows[:10])
+    assert caplog.messages == [f"log: {path} is cut off; the replay ends where it does"]

@@ -6,10 +6,11 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from rsoccer._core import RobotModel, Sensing, SimConfig, Simulator
+from rsoccer._core import GAME_COLUMNS, RobotModel, Sensing, SimConfig, Simulator
 from rsoccer.arrays import Floats
 from rsoccer.bridge.match_tasks import TICK
 from rsoccer.frame import Frame
+from rsoccer.game import Command
 from rsoccer.new_play import new_play, new_viewpoint
 from rsoccer.play import Play
 from rsoccer.protocols.placing import Placement
@@ -59,7 +60,7 @@ class Arena:
         sensing: Sensing | None = None,
         seed: int = 0,
         *,
-        has_referee: bool = True,
+        referee: str = "own",
         observers: list[int] | None = None,
         forecasting: tuple[str, ...] = (),
     ) -> None:
@@ -69,7 +70,8 @@ class Arena:
             task: the match, from `rsoccer.bridge.match_tasks.make_match`.
             sensing: senses of the robots; None for exact ones at `FRAME_RATE`.
             seed: seed of the first kick-off and of the senses.
-            has_referee: whether the task's referee decides.
+            referee: who decides, one of `rsoccer.bridge.settings.REFEREES`; with "off" the ball is
+                free for both teams all the time.
             observers: robots with a policy, in the order of a state row; None for none.
             forecasting: teams, "blue" or "yellow", whose policies play from a forecast.
 
@@ -90,7 +92,7 @@ class Arena:
         self.play: Play = new_play(task, 1, viewpoint, rng.split("task"))
         self._senses_rng = rng.split("senses")
         self.rule = next(rule for rule in task.rules if isinstance(rule, RefereeRule))
-        self.referee = self.rule if has_referee else None
+        self.referee = self.rule if referee == "own" else None
         self.ticks = 0
         self.camera_frames: list[CameraFrame] = []
         self._frames = 0
@@ -100,6 +102,15 @@ class Arena:
         self.play.start(rows)
         self.rule.begin(self.play, _WORLD)
         task.start_episode(self.play)
+        if referee == "off":
+            self._free_ball()
+
+    def _free_ball(self) -> None:
+        """Let both teams play the ball from now on, as nobody starts or stops the match."""
+        game = self.play.game
+        game.referee[0, GAME_COLUMNS.index("command")] = Command.FORCE_START
+        game.referee[0, GAME_COLUMNS.index("in_play")] = 1.0
+        game.may_touch[:] = True
 
     def _build(self, config: SimConfig, rows: Floats) -> None:
         """Make the simulator, with all bodies placed and new senses."""

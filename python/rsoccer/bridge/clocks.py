@@ -48,6 +48,7 @@ class ScaledClock:
         _checked(speed)
         self._pass_time(now)
         self.speed = speed
+        self._debt = min(self._debt, self._most)  # what a faster clock may owe is dropped
 
     def due(self, now: float) -> int:
         """Return the ticks that are due.
@@ -76,11 +77,17 @@ class ScaledClock:
         last = now if self._last is None else self._last
         self._last = now
         self._debt += max(0.0, now - last) * self.speed
-        # Slow computers would gather debts, too; a fast clock may owe what it makes in that time.
-        most = max(TICK, MAX_LAG * max(self.speed, 1.0))
-        if self._debt > most:
+        if self._debt > self._most:
             self.skipped += self._debt - TICK
             self._debt = TICK
+
+    @property
+    def _most(self) -> float:
+        """Greatest debt, s: slow computers would gather more and more.
+
+        A fast clock may owe what it makes in that time.
+        """
+        return max(TICK, MAX_LAG * max(self.speed, 1.0))
 
 
 def _checked(speed: float) -> float:

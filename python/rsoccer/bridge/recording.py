@@ -57,6 +57,7 @@ def record(server: Server, path: Path | str) -> Iterator[None]:
         ValueError: another suffix, or a log of a match of another league.
     """
     path = Path(path)
+    is_log = path.name.endswith((".log", f".log{COMPRESSED_SUFFIX}"))
     if path.suffix == SUFFIX:
         if not path.resolve().parent.is_dir():
             raise ValueError(f"record: expected a folder that exists, got {path}")
@@ -70,7 +71,7 @@ def record(server: Server, path: Path | str) -> Iterator[None]:
             server.listeners.remove(recorder)
             recorder.replay().save(path)
         return
-    if path.suffix not in (".log", COMPRESSED_SUFFIX):
+    if not is_log:
         raise ValueError(f"record: expected a name ending in .rsr, .log or .log.gz, got {path}")
     if server.session.settings.league != "ssl":
         raise ValueError(f"record: expected a replay (.rsr) of a match of VSSS, got {path}")
@@ -116,7 +117,7 @@ class ReplayRecorder:
 
         Args:
             server: the server.
-            sent: what it sends.
+            sent: what it sends, and what a referee on the network has sent.
         """
         arena = server.session.arena
         index = len(self._rows)

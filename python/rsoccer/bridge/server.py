@@ -30,7 +30,8 @@ class Server:
     Attributes:
         session: the match and its clients.
         ports: the ports of the league.
-        listeners: called after each tick with what is sent.
+        listeners: called after each tick with what is sent, and before it with what a referee on
+            the network has sent meanwhile.
         is_local: whether only a referee on this machine is heard; `SocketLoop` sets it.
     """
 
@@ -64,6 +65,7 @@ class Server:
         self._referee = ExternalReferee(self.session) if settings.referee == "external" else None
         self.is_local = False
         self.listeners: list[Callable[[Server, list[Datagram]], None]] = []
+        self._heard: list[Datagram] = []  # from the referee on the network, since the last tick
         self._waits = False
         self._awaited = AwaitedAnswers(self.session.teams, settings.client_timeout)
         self._has_had = [False, False]
@@ -99,6 +101,7 @@ class Server:
         try:
             if port == "referee" and self._referee is not None:
                 self._referee.receive(data)
+                self._heard.append(Datagram("referee", data))
                 return []
             return self.ports.receive(port, data, address, now)
         except MessageError as error:
@@ -163,8 +166,9 @@ class Server:
         for datagram in ports.officials.datagrams():
             sent.append(datagram)
             yield datagram
+        heard, self._heard = self._heard, []
         for listener in self.listeners:
-            listener(self, sent)
+            listener(self, heard + sent)
 
     # -- As fast as clients answer ---------------------------------------------------------------
 

@@ -63,7 +63,7 @@ class Session:
             task,
             settings.sensing,
             settings.seed,
-            has_referee=settings.referee == "own",
+            referee=settings.referee,
             observers=self.stand_ins.observers,
             forecasting=self.stand_ins.forecasting,
         )

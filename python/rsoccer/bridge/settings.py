@@ -37,6 +37,20 @@ VSSS_GROUPS: Final = {
 }
 """Multicast groups of VSSS by the name of the port."""
 
+OWN_OPTIONS: Final[Mapping[str, Mapping[str, str]]] = {
+    "ssl": {
+        "division": "the argument `division` for it",
+        "n_blue": "`robots` for the size of both teams",
+        "n_yellow": "`robots` for the size of both teams",
+    },
+    "vsss": {
+        "field": "`robots`, by which the field follows",
+        "n_blue": "`robots` for the size of both teams",
+        "n_yellow": "`robots` for the size of both teams",
+    },
+}
+"""Options of the match tasks that a server sets itself, by league, and what to give instead."""
+
 
 def default_ports(league: str) -> Mapping[str, int]:
     """Return the ports of a league by name.
@@ -104,6 +118,12 @@ class Settings:
             raise ValueError(f"league: expected one of {LEAGUES}, got {self.league!r}")
         if self.referee not in REFEREES:
             raise ValueError(f"referee: expected one of {REFEREES}, got {self.referee!r}")
+        if self.robots is not None:
+            checks.integer("robots", self.robots, 1)
+        given_elsewhere = OWN_OPTIONS[self.league]
+        for name in self.options:
+            if name in given_elsewhere:
+                raise ValueError(f"options: expected {given_elsewhere[name]}, got {name!r} here")
         if self.speed is not None:
             checks.number_in_range("speed", self.speed, 0.0, MAX_SPEED)
         checks.number_in_range("command_timeout", self.command_timeout, 0.01, 3600.0)

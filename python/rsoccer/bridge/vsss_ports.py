@@ -13,9 +13,8 @@ from rsoccer.protocols import fira, vssref
 from rsoccer.protocols.errors import MessageError
 from rsoccer.protocols.layout import TEAM_NAMES, TEAMS
 from rsoccer.protocols.parsing import parse
+from rsoccer.protocols.referee import RUNNING
 from rsoccer.protocols.schemas import fira_pb2, vssref_pb2
-
-_RUNNING: Final = (Command.NORMAL_START, Command.FORCE_START)
 
 
 class VsssPorts:
@@ -93,6 +92,7 @@ class VsssPorts:
     def _command(self, message: fira_pb2.Packet, address: Address, now: float) -> None:
         session, seconds = self._session, self._session.arena.seconds
         named = {command.yellowteam for command in message.cmd.robot_commands}
+        refused = 0
         for index in TEAMS:
             if bool(index) not in named:
                 continue
@@ -102,13 +102,14 @@ class VsssPorts:
                 continue
             read = fira.read_commands(session.layout, message, team.previous(seconds))
             team.hold(read.commands, read.given, seconds)
-            session.counts["command: parts refused"] += len(read.problems)
+            refused = len(read.problems)  # of the whole packet, for each team alike
+        session.counts["command: parts refused"] += refused
 
     def _replace(self, message: vssref_pb2.Placement, address: Address) -> None:
         """Put the robots of a team where it wants them before a kick."""
         session = self._session
         command = Command(int(session.arena.play.game.command[0]))
-        if session.settings.referee != "off" and command in _RUNNING:
+        if session.settings.referee != "off" and command in RUNNING:
             session.counts["replacer: refused while play goes on"] += 1
             return
         placement = vssref.read_placement(session.layout, message, session.arena.frame)

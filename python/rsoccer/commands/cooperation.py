@@ -40,7 +40,7 @@ class Cooperation(Sources, Imports):
     """policy in the place of the learners, or the task"""
     policy: Annotated[str | None, POLICY] = None
     """policy in the place of the learners, after a task"""
-    opponent: Annotated[
+    opponents: Annotated[
         str | None, arg(metavar="POLICY", help_behavior_hint=DEFAULT_OPPONENT_HINT)
     ] = None
     """policy of the other team, name or path"""
@@ -75,11 +75,11 @@ class Cooperation(Sources, Imports):
         check_output("json", self.json)
         if (self.subject, self.policy, self.task) == (None, None, None):
             raise ValueError("policy: expected a policy or a task, got none")
-        check_policy_names((self.opponent, *self.replacements, *self.partners))
+        check_policy_names((self.opponents, *self.replacements, *self.partners))
         policy, task = policy_and_task(self.subject, self.policy, self.task, self.task_options)
         result = cooperation(
             policy,
-            self.opponent,
+            self.opponents,
             self.matches,
             self.seed,
             task=task,

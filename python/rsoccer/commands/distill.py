@@ -18,7 +18,7 @@ class CommandDistillArgs(DistillArgs):
     """Settings as the command line takes them."""
 
     randomization: Annotated[Mapping[str, Any], RANDOMIZATION] = field(default_factory=dict)
-    """numbers that each episode draws, by name, such as robot.mass=(0.9,1.1)"""
+    """numbers that each episode draws, by name, such as robot.mass=0.9,1.1"""
 
 
 @dataclass(frozen=True)

@@ -196,7 +196,13 @@ class Drive(Imports):
         assert self.check is not None, "the caller has checked it"
         connection = Connection(task.config, settings)
         try:
-            slot = connection.layout.slot(TEAM_NAMES.index(settings.team), self.check)
+            layout, team = connection.layout, TEAM_NAMES.index(settings.team)
+            numbers = layout.ids[layout.exchanged(team)]
+            if self.check not in numbers:
+                raise ValueError(
+                    f"check: expected one of the robots {list(numbers)} (--ids), got {self.check}"
+                )
+            slot = layout.slot(team, self.check)
             found = check_robot(connection, slot)
             write(describe(connection, found, slot))
         finally:

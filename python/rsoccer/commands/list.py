@@ -30,7 +30,7 @@ class List(Imports):
         write("best is the trained policy of the task; its mean scores, with 95% intervals:")
         _write_trained(None)
         _write_trained(trained.OPPONENTS)
-        write("best:robust has learned the task with late and noisy senses, and scores:")
+        write("best:robust is made for late and noisy senses, and scores:")
         _write_trained(trained.ROBUST)
         examples = (f"{name}:0.5" for name in policies.list_policies_with_skill())
         write("best and files play as they were trained; :mean or :sample may follow the name")
@@ -57,10 +57,10 @@ def _usable_policies() -> list[str]:
 
 
 def _facts(path: Path) -> list[str]:
-    """Scores of a trained policy, and the senses and varied numbers of its training."""
+    """Scores of a trained policy, and the senses and varied numbers for which it is made."""
     scores = [_score_text(score) for score in trained.list_scores(path)] or ["not measured"]
     conditions = trained.describe_training(path)
-    return [*scores, f"trained with {conditions}"] if conditions else scores
+    return [*scores, f"made for matches with {conditions}"] if conditions else scores
 
 
 def _score_text(score: Score) -> str:

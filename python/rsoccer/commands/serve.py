@@ -9,7 +9,7 @@ import time
 from collections.abc import Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Final, Literal
 
 from tyro.conf import Positional, arg
 
@@ -23,6 +23,11 @@ if TYPE_CHECKING:
     from rsoccer.bridge.settings import Settings
     from rsoccer.bridge.sockets import Network, SocketLoop
 
+ENDING: Final = tuple(
+    getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)
+)
+"""Signals that end a match as Ctrl-C does: records are written. A terminal that is closed sends the
+second one, which Windows lacks."""
 _SENSING = arg(metavar="PRESET|FILE", help_behavior_hint="(default: exact, 60 frames a second)")
 _POLICY = arg(metavar="POLICY", help_behavior_hint="(default: its robots stand still)")
 _USUAL = "(default: those of the league)"
@@ -102,12 +107,16 @@ class Serve(Imports):
             for name, port in zip(TEAM_NAMES, STATUS_PORTS, strict=True)
         )
         server = Server(settings, time.time(), (status_blue, status_yellow))
+        for name, number in network.ports.items():
+            if number == 0 and name not in server.inputs:
+                raise ValueError(f"ports: expected 1 to 65535 for {name}, which is sent, got 0")
         with ExitStack() as stack:
             self._watch(server, stack)
             loop = stack.enter_context(SocketLoop(server, network))
             self._announce(loop, network)
-            previous = signal.signal(signal.SIGTERM, lambda *_: loop.stop())
-            stack.callback(signal.signal, signal.SIGTERM, previous)
+            for name in ENDING:
+                previous = signal.signal(name, lambda *_: loop.stop())
+                stack.callback(signal.signal, name, previous)
             try:
                 loop.run(None if math.isinf(self.seconds) else self.seconds)
             except KeyboardInterrupt:

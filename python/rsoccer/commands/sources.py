@@ -27,7 +27,7 @@ class Sources:
     sensing: Annotated[str | None, _SENSING] = None
     """senses of the robots: noise, delay and loss"""
     randomization: Annotated[Mapping[str, Any], RANDOMIZATION] = field(default_factory=dict)
-    """numbers that each episode draws, by name, such as robot.mass=(0.9,1.1)"""
+    """numbers that each episode draws, by name, such as robot.mass=0.9,1.1"""
 
 
 @contextmanager

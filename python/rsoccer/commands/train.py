@@ -62,7 +62,7 @@ class CommandArgs(Args):
     """options of the task (`rsoccer list` prints them), such as opponent=chase or
     robot=heavy.json"""
     randomization: Annotated[Mapping[str, Any], RANDOMIZATION] = field(default_factory=dict)
-    """numbers that each episode draws, by name, such as robot.mass=(0.9,1.1)"""
+    """numbers that each episode draws, by name, such as robot.mass=0.9,1.1"""
     opponents: Opponents = field(default_factory=Opponents)
     """opponents of the learners, by share of the matches"""
 

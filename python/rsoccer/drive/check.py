@@ -22,6 +22,8 @@ SECONDS: Final = 0.6
 """Duration of a movement, s."""
 REST: Final = 0.5
 """Time to stand after it, s."""
+LOOK: Final = 0.3
+"""Time for which frames are awaited before it, so that all cameras have sent some, s."""
 MARGIN: Final = 0.05
 """Space that is left around the robot at the ends of its ways, m."""
 RIGHT: Final = (0.5, 1.5)
@@ -99,8 +101,8 @@ def check_robot(connection: Connection, slot: int) -> CheckedRobot:
     Raises:
         ConnectionError: it is out of sight, or vision ends.
         RuntimeError: the simulator refuses all commands, or the guard has ended.
-        ValueError: no such robot, limits below the speeds of the check, or a robot, a line or the
-            ball too near.
+        ValueError: no such robot, limits below the speeds of the check, a referee that halts it or
+            keeps it away from the ball, or a robot, a line or the ball too near.
     """
     driven = np.flatnonzero(connection.driven)
     if slot not in driven:
@@ -114,11 +116,19 @@ def check_robot(connection: Connection, slot: int) -> CheckedRobot:
             raise ValueError(
                 f"limits: {name}: expected {needed:g} {unit} or more for the check, got {limit:g}"
             )
-    seen = connection.sight.frames
+    team, number = connection.layout.identity(slot)
+    sight = connection.sight
+    seen = sight.frames
     connection.stand(
-        lambda: connection.sight.frames > seen and bool(connection.sight.in_sight[slot]),
-        f"robot {connection.layout.identity(slot)[1]} in sight",
+        lambda: sight.frames > seen and bool(sight.in_sight[slot]), f"robot {number} in sight"
     )
+    until = sight.clock.now + LOOK
+    connection.stand(lambda: sight.clock.now >= until, "frames")  # of all cameras
+    if connection.officials.restrains(connection.layout.exchanged(team)):
+        raise ValueError(
+            "check: expected a referee that lets the robot drive anywhere, or "
+            f"`--referee ignore`, got {connection.officials.words}"
+        )
     row = _read(connection)
     place = _place(row, slot)
     _check_space(connection, row, slot)
@@ -141,6 +151,7 @@ def check_robot(connection: Connection, slot: int) -> CheckedRobot:
 def _read(connection: Connection) -> Floats:
     row = np.empty((1, connection.config.row_size), np.float32)
     connection.sight.read(row)
+    connection.frame.rows[:] = row
     return row
 
 
@@ -159,6 +170,7 @@ def _check_space(connection: Connection, row: Floats, slot: int) -> None:
         for other in range(connection.config.n_robots)
         if other != slot and connection.sight.in_sight[other]
     ]
+    others += list(connection.sight.stranger_places)
     nearest = min((float(np.hypot(*(place[:2] - other))) for other in others), default=math.inf)
     free = min(to_lines, nearest)
     needed = SPEED * SECONDS + 2 * reach(connection.config.robots[slot]) + MARGIN

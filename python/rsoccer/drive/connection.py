@@ -27,6 +27,8 @@ DRIVEN: Final = (BLUE,)
 """Teams of the package whose robots a connection drives by default."""
 MAX_AGE: Final = 0.1
 """Time since the last frame up to which time goes on without one, s."""
+MAX_BATCHES: Final = 1000
+"""Batches of datagrams that are taken in at once after a pause; a flood does not end."""
 END_MESSAGES: Final = 5
 """Messages that stop the robots at the end: one may be lost."""
 
@@ -87,7 +89,7 @@ class Connection:
         shape = (config.n_robots, len(config.command_columns))
         self._stopped: Floats = np.zeros(shape, np.float32)
         self._is_closed = False
-        self._sent_at = clock()
+        self._sent_at = self._taken_at = clock()
         self._now = 0.0
         stops = self._messages(self._stopped)  # raises for robots that the peer cannot have
         self._link: Link = SocketLink(settings) if link is None else link
@@ -97,7 +99,7 @@ class Connection:
                 # A simulator that waits takes stops for answers: only the end here counts.
                 timeout = math.inf if settings.is_synchronous else settings.guard_timeout
                 self._guard = GuardProcess(self._link, stops, timeout, settings.rate)
-            self._send(self._stopped)
+            self._send(None)
         except BaseException:
             self.close()
             raise
@@ -130,7 +132,9 @@ class Connection:
         """Give robots their commands, until a time.
 
         The commands go out now and with each frame. Robots stop while there are no frames; the
-        first one then ends the call, so that nobody goes on with an old command.
+        first one then ends the call, so that nobody goes on with an old command. The same holds
+        after a pause of this program in which robots would have stopped: what has come in
+        meanwhile is old, and the commands are not sent.
 
         Args:
             commands: (robots, command) commands, finite.
@@ -141,6 +145,9 @@ class Connection:
             ConnectionError: there are no frames for `patience`.
             RuntimeError: the simulator refuses all commands, or the guard has ended.
         """
+        if self._slept():
+            self._catch_up()
+            return
         self._send(commands)
         self._pump(commands, lambda: self.sight.clock.now >= until, "a frame")
 
@@ -155,8 +162,8 @@ class Connection:
             ConnectionError: it does not hold for `patience`.
             RuntimeError: the simulator refuses all commands, or the guard has ended.
         """
-        self._send(self._stopped)
-        self._pump(self._stopped, is_done, wanted, stands=True)
+        self._send(None)
+        self._pump(None, is_done, wanted, stands=True)
 
     def begin(self, *, needs_all: bool = True) -> None:
         """Wait until there are frames, and the ball and all robots that are driven are in sight.
@@ -200,10 +207,18 @@ class Connection:
         """Forget all estimates, as bodies have been put somewhere."""
         self.sight.turn(self.layout)
 
+    def tell(self, text: str) -> None:
+        """Tell those who listen to events.
+
+        Args:
+            text: words for what happens.
+        """
+        self._reception.tell(text)
+
     def stop(self) -> None:
         """Tell the robots to stand; the guard tells them again while nothing else is sent."""
         for _ in range(END_MESSAGES):
-            self._send(self._stopped)
+            self._send(None)
 
     def close(self) -> None:
         """Stop the robots and close the connection; a second call does nothing."""
@@ -218,9 +233,30 @@ class Connection:
 
     # -- Parts -----------------------------------------------------------------------------------
 
+    def _slept(self) -> bool:
+        """Whether nobody has looked for datagrams for so long that frames are old."""
+        if self.settings.is_synchronous:
+            return False
+        return self._clock() - self._taken_at > self.settings.seconds_to_stop
+
+    def _catch_up(self) -> None:
+        """Take in what has come meanwhile, and let robots stand until the next newer frame."""
+        source = self.settings.source
+        self.counts[f"{source}: late"] += 1
+        self.tell(f"{source}: this program was late, robots stop")
+        self._send(None)
+        for _ in range(MAX_BATCHES):
+            received = self._link.poll(0.0)
+            for port, data in received:
+                self._reception.take(port, data)
+            if not received:
+                break
+        before = self.sight.clock.now
+        self.stand(lambda: self.sight.clock.now > before, "a frame")
+
     def _pump(
         self,
-        commands: Floats,
+        commands: Floats | None,
         is_done: Callable[[], bool],
         wanted: str,
         *,
@@ -238,16 +274,16 @@ class Connection:
             if is_newer and (is_done() or (is_back and not stands)):
                 self._answer(commands, came - 1)
                 if lost:
-                    self._reception.tell(f"{settings.source}: back")
+                    self.tell(f"{settings.source}: back")
                 return
             if is_back:  # robots that stand have no old command to go on with
                 lost = False
-                self._reception.tell(f"{settings.source}: back")
+                self.tell(f"{settings.source}: back")
             is_urgent = self.officials.is_halted != was_halted
             if not lost and self._reception.silence > settings.seconds_to_stop:
-                lost, commands, is_urgent = True, self._stopped, True
+                lost, commands, is_urgent = True, None, True
                 self.counts[f"{settings.source}: lost"] += 1
-                self._reception.tell(f"{settings.source}: lost, robots stop")
+                self.tell(f"{settings.source}: lost, robots stop")
             is_due = self._clock() >= self._sent_at + period
             if came:
                 self._answer(commands, came)
@@ -255,7 +291,7 @@ class Connection:
                 self._send(commands)
             self._check(wanted, self._clock() - begun if stands else self._reception.silence)
 
-    def _answer(self, commands: Floats, frames: int) -> None:
+    def _answer(self, commands: Floats | None, frames: int) -> None:
         """Send commands for frames; a simulator that waits for its clients counts them."""
         for _ in range(frames if self.settings.is_synchronous else min(frames, 1)):
             self._send(commands)
@@ -276,6 +312,7 @@ class Connection:
     def _take(self, seconds: float) -> bool:
         """Take in what comes. Return whether the state is a newer one."""
         newer = [self._reception.take(port, data) for port, data in self._link.poll(seconds)]
+        self._taken_at = self._clock()
         return any(newer)
 
     def _messages(self, commands: Floats) -> list[Message]:
@@ -285,14 +322,9 @@ class Connection:
             for message in self._peer.commands(self.layout, commands, team)
         ]
 
-    def _send(self, commands: Floats) -> None:
-        """Send commands as referee and limits allow them, and stop robots that nobody sees."""
-        allowed = np.array(self.officials.restrain(self.layout, commands, self.frame), np.float32)
-        in_sight = self.sight.in_sight
-        for slot, model in enumerate(self.config.robots):
-            if in_sight[slot]:
-                allowed[slot] = limited(model, allowed[slot], self.settings.limits)
-        allowed[~in_sight | ~self.driven] = stopped(allowed[0])
+    def _send(self, commands: Floats | None) -> None:
+        """Send commands as referee and limits allow them; None to let all robots stand."""
+        allowed = self._stopped.copy() if commands is None else self._allowed(commands)
         self._link.send(self._messages(allowed))
         self._sent_at = self._clock()
         if self._guard is not None:
@@ -300,3 +332,13 @@ class Connection:
         # Equal ones too: robots that hear nothing for a time stop.
         for listener in self.on_sent:
             listener(self.now, allowed)
+
+    def _allowed(self, commands: Floats) -> Floats:
+        """Commands as referee and limits allow them; robots that nobody sees or drives stand."""
+        allowed = np.array(self.officials.restrain(self.layout, commands, self.frame), np.float32)
+        in_sight = self.sight.in_sight
+        for slot, model in enumerate(self.config.robots):
+            if in_sight[slot]:
+                allowed[slot] = limited(model, allowed[slot], self.settings.limits)
+        allowed[~in_sight | ~self.driven] = stopped(allowed[0])
+        return allowed

@@ -88,6 +88,36 @@ class Officials:
             return command not in RUNNING  # people or the simulator place robots meanwhile
         return command is Command.HALT
 
+    @property
+    def is_awaited(self) -> bool:
+        """True if no packet has come, and none is needed for robots to drive."""
+        return not self.packets and self._settings.referee == "obey"
+
+    @property
+    def words(self) -> str:
+        """Words for what the referee demands."""
+        if not self.packets:
+            return "no packet of a referee"
+        if not self._settings.is_synchronous and self._clock() - self._heard_at > SILENCE:
+            return f"none for {SILENCE:g} s"
+        command = self.reported.state.command
+        return "no command" if command is None else command.name
+
+    def restrains(self, team: int) -> bool:
+        """Return whether a team's robots stand still or keep away from the ball.
+
+        Args:
+            team: `BLUE` or `YELLOW`, in the package.
+        """
+        return self.is_halted or (self._keeps_away and not self.reported.state.may_touch(team))
+
+    @property
+    def _keeps_away(self) -> bool:
+        """Whether robots that may not touch the ball are kept away from it."""
+        settings = self._settings
+        is_known = self.reported.state.command is not None
+        return is_known and settings.referee != "ignore" and settings.league == "ssl"
+
     def restrain(self, layout: WireLayout, commands: Floats, frame: Frame) -> Floats:
         """Return commands that the referee allows.
 
@@ -103,7 +133,7 @@ class Officials:
             return stopped(commands)
         state = self.reported.state
         command = state.command
-        if self._settings.referee == "ignore" or command is None or self._settings.league == "vsss":
+        if not self._keeps_away:
             return commands
         allowed = np.array(commands, np.float32)
         limits = Limits()
@@ -121,7 +151,8 @@ class Officials:
             for slot in slots:
                 model = layout.config.robots[slot]
                 own = kicking == team
-                distance = model.radius + GAP if own else KEEP_AWAY
+                touching = model.radius + layout.config.ball.radius
+                distance = touching + GAP if own else KEEP_AWAY
                 allowed[slot] = _away(model, allowed[slot], frame, slot, distance)
                 allowed[slot] = limited(model, allowed[slot], replace(limits, kick_speed=0.0))
         return allowed

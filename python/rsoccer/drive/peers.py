@@ -223,7 +223,10 @@ def make_layout(settings: Settings, config: SimConfig, *, positive: bool) -> Wir
     for model in config.robots:
         if (model.drive == "differential") != on_two_wheels:
             wanted = "on two wheels" if on_two_wheels else "of the SSL"
-            raise ValueError(f"peer: expected robots {wanted} with {settings.peer}, got {model!r}")
+            raise ValueError(
+                f"task: expected robots {wanted} with {settings.peer}, got some with the drive "
+                f"{model.drive!r}"
+            )
     try:
         return WireLayout(
             config,

@@ -45,7 +45,13 @@ class ObeyedReferee(RefereeRule):
         self._officials, self._n_blue = officials, task.config.n_blue
 
     def judge(self, play: Play) -> Restart | None:
-        """Take over what the referee reports; it restarts play, nobody here does."""
+        """Take over what the referee reports; it restarts play, nobody here does.
+
+        Before its first packet the match goes on by the rules of the task, unless a referee is
+        required.
+        """
+        if self._officials.is_awaited:
+            return super().judge(play)
         self._officials.reported.write(play.game, self._n_blue)
         return None
 
@@ -126,6 +132,11 @@ class Session:
             RuntimeError: the simulator refuses all commands, or the guard has ended.
         """
         self.matches.reset()
+        officials = self.connection.officials
+        if officials.is_awaited and isinstance(self.matches.task, Match):
+            self.connection.tell(
+                "referee: none heard so far; the rules of the task hold until then"
+            )
 
     def step(self) -> Outcome:
         """Drive for a control step.

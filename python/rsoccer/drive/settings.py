@@ -156,9 +156,10 @@ class Settings:
             if name not in known:
                 raise ValueError(f"ports: expected names of {known}, got {name!r}")
             checks.integer_in_range(f"ports: {name}", number, 1, 65535)
+        groups = [name for name in LISTENING if name in known]
         for name in self.groups:
-            if name not in LISTENING:
-                raise ValueError(f"groups: expected names of {list(LISTENING)}, got {name!r}")
+            if name not in groups:
+                raise ValueError(f"groups: expected names of {groups}, got {name!r}")
 
     @property
     def league(self) -> str:

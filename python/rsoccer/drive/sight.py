@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from rsoccer._core import VisionTracker
-from rsoccer.arrays import Floats, Mask
+from rsoccer.arrays import Doubles, Floats, Mask
 from rsoccer.drive.peers import Identity
 from rsoccer.drive.vision_clock import VisionClock
 from rsoccer.game import BLUE, YELLOW
@@ -19,6 +19,8 @@ from rsoccer.protocols.layout import MILLIMETERS, WireLayout
 from rsoccer.protocols.parsing import parse
 from rsoccer.protocols.schemas import vision_pb2
 
+Named = tuple[Identity, tuple[float, float]]
+"""A robot as a message names it, and its place on the wire, m."""
 ABSENT_SECONDS: Final = 0.5
 """Time without a sight after which a robot counts as absent, s."""
 AROUND: Final = 3.0
@@ -65,6 +67,7 @@ class Sight(ABC):
         self._stamp: float | None = None
         self._senders: set[int] = set()
         self._seen: dict[Identity, float] = {}
+        self._places: dict[Identity, tuple[float, float]] = {}  # of strangers, on the wire, m
 
     @abstractmethod
     def take(self, data: bytes) -> bool:
@@ -128,6 +131,12 @@ class Sight(ABC):
         known = {self.layout.identity(slot) for slot in range(self.layout.config.n_robots)}
         return sorted(self._recent - known)
 
+    @property
+    def stranger_places(self) -> Doubles:
+        """(k, 2) places of the `strangers` in the package, m."""
+        places = [self._places[identity] for identity in self.strangers]
+        return self.layout.rotated(np.array(places, np.float64).reshape(-1, 2))
+
     def numbers(self, team: int) -> list[int]:
         """Return the uniform numbers that are in sight.
 
@@ -161,11 +170,13 @@ class Sight(ABC):
             self._count(OLDER_FRAMES if self.clock.older > older else UNCONFIRMED_FRAMES, 1)
         return found
 
-    def _note(self, named: Iterable[Identity], slots: Iterable[int], time: float) -> None:
+    def _note(self, named: Iterable[Named], slots: Iterable[int], time: float) -> None:
         """Note robots of others as they are named, and those of the match that are believed."""
         known = {self.layout.identity(slot) for slot in range(self.layout.config.n_robots)}
+        strangers = {identity: place for identity, place in named if identity not in known}
+        self._places.update(strangers)
         believed = [self.layout.identity(slot) for slot in slots]
-        self._seen.update(dict.fromkeys([*(set(named) - known), *believed], time))
+        self._seen.update(dict.fromkeys([*strangers, *believed], time))
 
     def _count(self, reason: str, number: int) -> None:
         if number:
@@ -216,7 +227,12 @@ class DetectionSight(Sight):
         self.has_ball = self._tracker.has_ball
         groups = ((BLUE, detection.robots_blue), (YELLOW, detection.robots_yellow))
         self._note(
-            ((team, r.robot_id) for team, group in groups for r in group if r.HasField("robot_id")),
+            (
+                ((team, robot.robot_id), (robot.x / MILLIMETERS, robot.y / MILLIMETERS))
+                for team, group in groups
+                for robot in group
+                if robot.HasField("robot_id")
+            ),
             robots[:, 0].astype(np.intp).tolist(),
             time,
         )

@@ -11,8 +11,7 @@ import numpy as np
 
 from rsoccer._core import ROBOT_COLUMNS
 from rsoccer.arrays import Floats, Mask
-from rsoccer.drive.peers import Identity
-from rsoccer.drive.sight import FAR_BALLS, FAR_ROBOTS, DetectionSight, Sight
+from rsoccer.drive.sight import FAR_BALLS, FAR_ROBOTS, DetectionSight, Named, Sight
 from rsoccer.frame import Frame
 from rsoccer.game import BLUE, YELLOW
 from rsoccer.protocols import fira, tracker
@@ -46,7 +45,7 @@ class StateSight(Sight):
     def _nothing(self) -> Frame:
         return Tracked.begin(self.layout, None, 0.0).frame
 
-    def _keep(self, tracked: Tracked, named: Iterable[Identity], time: float) -> None:
+    def _keep(self, tracked: Tracked, named: Iterable[Named], time: float) -> None:
         """Keep a state; bodies that are not believed stay as they were."""
         frame, last = tracked.frame, self._frame
         near = self._is_near(frame.robots.position[0])
@@ -114,12 +113,12 @@ class TrackerSight(StateSight):
         if found is None:
             return False
         colors = {tracker_pb2.TEAM_COLOR_BLUE: BLUE, tracker_pb2.TEAM_COLOR_YELLOW: YELLOW}
-        identities = [
-            (colors[robot.robot_id.team_color], robot.robot_id.id)
+        named = [
+            ((colors[robot.robot_id.team_color], robot.robot_id.id), (robot.pos.x, robot.pos.y))
             for robot in frame.robots
             if robot.robot_id.team_color in colors
         ]
-        self._keep(tracker.to_frame(self.layout, frame, self._frame), identities, found[0])
+        self._keep(tracker.to_frame(self.layout, frame, self._frame), named, found[0])
         return found[0] > before or self.frames == 1
 
 
@@ -138,12 +137,12 @@ class FiraSight(StateSight):
         if found is None:
             return False
         groups = (message.frame.robots_blue, message.frame.robots_yellow)
-        identities = [
-            (team, robot.robot_id)
+        named = [
+            ((team, robot.robot_id), (robot.x, robot.y))
             for team, group in zip(TEAMS, groups, strict=True)
             for robot in group
         ]
-        self._keep(fira.read_environment(self.layout, message, self._frame), identities, found[0])
+        self._keep(fira.read_environment(self.layout, message, self._frame), named, found[0])
         return found[0] > before or self.frames == 1
 
 

@@ -14,6 +14,7 @@ from rsoccer.evaluate.team_matches import Played, Team
 from rsoccer.lineup import opponents_of, script_of, task_for
 from rsoccer.policies import PolicyLike, check_policy_like, make_policy, name_of
 from rsoccer.policies.base import Policy, require_actions
+from rsoccer.policies.labels import identity, labels
 from rsoccer.randomization import Ranges
 from rsoccer.registry import as_task
 from rsoccer.sources import SensingSource, SimulatorSource
@@ -97,7 +98,7 @@ def cooperation(
     own = _acting("policy", policy, task)
     others = [_acting("replacements", each, task) for each in replacements]
     teammates = [_acting("partners", each, task) for each in partners]
-    if len({name_of(each) for each in (policy, *partners)}) <= len(partners):
+    if len({identity(each) for each in (policy, *partners)}) <= len(partners):
         raise ValueError(f"partners: expected other policies, each once, got {_names(partners)}")
     team = Team(task, other, per_side, seed, worlds, threads, simulator, sensing, randomization)
     if partners and len(team.learners(0)) < 2:
@@ -109,7 +110,7 @@ def cooperation(
         line_ups.append(_line_up(name, team.play(own, replacement), whole, rng))
     cross_play = None
     if teammates:
-        names = [name_of(policy), *_names(partners)]
+        names = labels((policy, *partners))
         cross_play = _cross_play(team, names, [own, *teammates], whole, rng)
     return Cooperation(
         policy=name_of(policy),

@@ -24,8 +24,7 @@ from rsoccer.evaluate.tournament_report import draw, report, report_html
 from rsoccer.lineup import task_for
 from rsoccer.policies import PolicyLike, check_policy_like, is_registered, make_policy, name_of
 from rsoccer.policies.base import Policy
-from rsoccer.policies.labels import labels
-from rsoccer.policies.policy_file import SUFFIXES
+from rsoccer.policies.labels import identity, labels
 from rsoccer.randomization import Ranges
 from rsoccer.registry import as_task
 from rsoccer.sources import SensingSource, SimulatorSource
@@ -206,18 +205,10 @@ def _check_policies(policies: object) -> None:
         raise ValueError(f"policies: expected at least two, got {len(policies)}")
     known: set[object] = set()
     for policy in policies:
-        key = _identity(policy)
+        key = identity(policy)
         if key in known:
             raise ValueError(f"policies: expected each one once, got {name_of(policy)!r} twice")
         known.add(key)
-
-
-def _identity(policy: PolicyLike) -> object:
-    """Key that is equal for the same object, the same name, and paths of the same file."""
-    if isinstance(policy, Policy):
-        return id(policy)
-    text = os.fspath(policy)
-    return os.path.realpath(text) if any(end in text for end in SUFFIXES) else text
 
 
 def _fitting(policy: PolicyLike, task: Task) -> Policy:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import dataclasses
 from collections.abc import Mapping
 from typing import Any, Final
@@ -15,7 +16,7 @@ from rsoccer.controllers import Assignment, Controllers, PolicyGroup, given_by_n
 from rsoccer.frame import team_of
 from rsoccer.game import new_game
 from rsoccer.policies import Policy, PolicyLike, make_policy
-from rsoccer.registry import make_task, options_of
+from rsoccer.registry import make_task, options_of, with_max_steps
 from rsoccer.rules.base import columns
 from rsoccer.task import LEARN, Task
 from rsoccer.view import SIDES
@@ -45,6 +46,8 @@ def changed_task(task: Task, options: Mapping[str, Any]) -> Task:
         changed: Task = dataclasses.replace(replaced, **options)
     else:
         changed = make_task(task.name, **{**known, **options})
+    if "max_steps" not in names and changed.max_steps != task.max_steps:  # an argument of matches
+        changed = with_max_steps(changed, task.max_steps, "max_steps")
     for name, what in _differences(task, changed).items():
         raise ValueError(
             f"options: expected ones that leave {what} of the task as they are, got "
@@ -177,11 +180,16 @@ def _policy(
     made: dict[int | str, Any],
     observes: bool,
 ) -> Any:  # noqa: ANN401
-    """A new policy for a group, whose robots observe or not; one object for equal controllers."""
+    """A new policy for a group, whose robots observe or not.
+
+    Groups with equal controllers get copies of one policy: robots that share an object are one
+    group in matches that are made from the same controllers, as copies are.
+    """
     key = controller if isinstance(controller, str) else id(controller)
-    if key not in made:
-        made[key] = make_policy(controller, task)
-    policy = made[key]
+    if key in made:
+        policy = copy.copy(made[key])
+    else:
+        policy = made[key] = make_policy(controller, task)
     if policy.observes != "nothing" and not observes:
         raise ValueError(
             f"controllers: expected a policy that observes nothing, as "

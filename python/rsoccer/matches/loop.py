@@ -183,7 +183,8 @@ class Matches:
             ImportError: a text "module:name" whose module or name does not exist.
             TypeError: an argument of the wrong type, an unknown option, options for a `Task`
                 object, or a simulator that can neither place bodies nor read their state.
-            ValueError: an unknown task, controller or autoreset mode, or a number out of range.
+            ValueError: an unknown task, controller or autoreset mode, a number out of range, or
+                numbers to vary that a simulator or a sensor model of one's own does not take.
         """
         if autoreset not in AUTORESETS:
             raise ValueError(f"autoreset: expected one of {AUTORESETS}, got {autoreset!r}")
@@ -204,6 +205,11 @@ class Matches:
         if self._randomization.sensing is not None and self._sensing is None:
             self._sensing = Sensing()
         is_own_model = self._sensing is not None and not isinstance(self._sensing, Sensing)
+        if is_own_model and self._randomization.sensing is not None:
+            raise ValueError(
+                "randomization: expected no numbers of `Sensing` with a sensor model of one's own, "
+                f"got {sorted(name for name in randomization or {} if name.startswith('sensing.'))}"
+            )
         self.sensing = sensing if is_own_model else simulated(self._sensing)
         self.randomization = dict(randomization or {})
         by_team = teams_differ(self._sensing, self._randomization.sensing)
@@ -241,6 +247,8 @@ class Matches:
         )
         try:
             self._starts = Starts(self._simulator)
+            if self._randomization.parameters is not None:
+                self._starts.check_parameters()
             self.play.senses = self._new_senses(self.play.frame, root.split("senses"))
         except BaseException:
             if not is_shared(simulator):

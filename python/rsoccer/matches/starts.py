@@ -43,6 +43,18 @@ class Starts:
                 "is; expected None"
             )
 
+    def check_parameters(self) -> None:
+        """Refuse factors on the models' numbers, which are given where bodies are placed.
+
+        Raises:
+            ValueError: bodies cannot be placed.
+        """
+        if self._placer is None:
+            raise ValueError(
+                f"randomization: {self._name} cannot place bodies, so robots and ball have their "
+                "own numbers; expected none of them"
+            )
+
     def begin(
         self, worlds: Mask, rows: Floats | None, out: Floats, parameters: Floats | None = None
     ) -> Doubles | None:

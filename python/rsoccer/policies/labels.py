@@ -1,4 +1,4 @@
-"""Short names of policies for tables, logs and plots."""
+"""Identity of policies, and their short names for tables, logs and plots."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from collections.abc import Collection, Iterable
 from itertools import count
 from pathlib import Path
 
-from rsoccer.policies import PolicyLike, is_registered, name_of
-from rsoccer.policies.policy_file import ONNX_SUFFIX, SUFFIX
+from rsoccer.policies import Policy, PolicyLike, is_registered, name_of
+from rsoccer.policies.policy_file import ONNX_SUFFIX, SUFFIX, SUFFIXES
 
 GENERIC = "policy"
 """Name of the policy file in every run's folder, which the folder's name replaces."""
@@ -45,6 +45,18 @@ def labels(policies: Iterable[PolicyLike], reserved: Collection[str] = ()) -> li
             numbered = (f"{text} {number}" for number in count(1))
             short[index] = next(name for name in numbered if name not in short)
     return short
+
+
+def identity(policy: PolicyLike) -> object:
+    """Return a key that is equal for the same object, the same name, and paths of the same file.
+
+    Args:
+        policy: a policy, its name or its file.
+    """
+    if isinstance(policy, Policy):
+        return id(policy)
+    text = os.fspath(policy)
+    return os.path.realpath(text) if any(end in text for end in SUFFIXES) else text
 
 
 def _is_free(label: str, used: Counter[str], reserved: Collection[str]) -> bool:

@@ -48,6 +48,8 @@ class Code(StrEnum):
     """The protocol has no such event, or rSoccer has none."""
     BAD_LOG = "BAD_LOG"
     """The file is no log, is of another version, or damaged."""
+    CUT_OFF = "CUT_OFF"
+    """The file of a log ends within a message, as after a writer that was killed."""
     MORE_PROBLEMS = "MORE_PROBLEMS"
     """The message has more problems than are listed; the text has the number of the others."""
 

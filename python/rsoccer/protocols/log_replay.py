@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from pathlib import Path
 from typing import Final
 
@@ -26,6 +27,7 @@ TASK: Final = "SSLMatch-v0"
 """Name of the task of replays from logs."""
 MAX_SECONDS: Final = 6 * 3600.0
 """Longest log that is converted, s: a time stamp far off must not fill the memory."""
+_LOGGER: Final = logging.getLogger(__name__)
 _TOLERANCE: Final = 1e-6
 """Tolerance of times, s: logs have them in ns, sums of steps have rounding errors."""
 
@@ -46,7 +48,8 @@ def log_to_replay(
 
     Returns:
         The replay: blue attacks +x all the time, whatever side it played on. Commands, touches and
-        spins are not in logs, so they are zeros. Packets that cannot be read are left out.
+        spins are not in logs, so they are zeros. Packets that cannot be read are left out, and a
+        log that is cut off ends where it is, with a warning.
 
     Raises:
         FileNotFoundError: no such file.
@@ -56,6 +59,8 @@ def log_to_replay(
     """
     checks.positive_number("time_step", time_step)
     survey = survey_log(path)
+    if survey.is_cut_off:
+        _LOGGER.warning("log: %s is cut off; the replay ends where it does", path)
     first = survey.first or 0.0
     if survey.last - first > MAX_SECONDS:
         duration = survey.last - first

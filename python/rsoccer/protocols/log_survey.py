@@ -32,6 +32,7 @@ class Survey:
         unreadable: packets that could not be read.
         geometry: first geometry; None if there is none.
         names: last names of blue and of yellow; empty if there are none.
+        is_cut_off: whether the file ends within a message.
         side: first side of the referee's packets, whether blue's goal is at +x; None without one.
     """
 
@@ -43,6 +44,7 @@ class Survey:
     geometry: vision_pb2.Geometry | None = None
     names: tuple[str, str] = ("", "")
     side: bool | None = None
+    is_cut_off: bool = False
     _tracked: Counter[tuple[str, int, int]] = field(default_factory=Counter)
     _detected: Counter[tuple[int, int]] = field(default_factory=Counter)
 
@@ -111,23 +113,30 @@ class Survey:
 def messages(path: Path | str, survey: Survey | None = None) -> Iterator[tuple[float, Message]]:
     """Yield the times and packets of a log that can be read.
 
+    A log that is cut off ends where it is.
+
     Args:
         path: the log.
-        survey: counts the others; None to count nothing.
+        survey: takes note of the others, and of a log that is cut off; None for nothing.
 
     Raises:
         FileNotFoundError: no such file.
         MessageError: the file is no log, or is damaged.
     """
-    for entry in read_log(path):
-        try:
-            message = entry.message()
-        except MessageError:
-            if survey is not None:
+    survey = Survey() if survey is None else survey
+    try:
+        for entry in read_log(path):
+            try:
+                message = entry.message()
+            except MessageError:
                 survey.unreadable += 1
-            continue
-        if message is not None:
-            yield entry.seconds, message
+                continue
+            if message is not None:
+                yield entry.seconds, message
+    except MessageError as error:
+        if error.code is not Code.CUT_OFF:
+            raise
+        survey.is_cut_off = True
 
 
 def survey_log(path: Path | str) -> Survey:

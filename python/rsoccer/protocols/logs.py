@@ -188,7 +188,9 @@ def read_log(path: Path | str) -> Iterator[LogEntry]:
         file: IO[bytes] = gzip.GzipFile("", "rb", fileobj=raw) if compressed else raw  # type: ignore[assignment]
         try:
             yield from _entries(file)
-        except (EOFError, gzip.BadGzipFile, zlib.error) as error:
+        except EOFError:
+            raise MessageError(Code.CUT_OFF, "log: the compressed file is cut off") from None
+        except (gzip.BadGzipFile, zlib.error) as error:
             raise MessageError(
                 Code.BAD_LOG, f"log: the compressed file is damaged: {error}"
             ) from None
@@ -207,7 +209,7 @@ def _entries(file: IO[bytes]) -> Iterator[LogEntry]:
     _check_start(file)
     while head := file.read(_HEAD.size):
         if len(head) < _HEAD.size:
-            raise MessageError(Code.BAD_LOG, "log: the file is cut off in the head of a message")
+            raise MessageError(Code.CUT_OFF, "log: the file is cut off in the head of a message")
         time, kind, size = _HEAD.unpack(head)
         if kind == LogKind.INDEX:
             _skip(file, size)
@@ -218,7 +220,7 @@ def _entries(file: IO[bytes]) -> Iterator[LogEntry]:
             )
         data = file.read(size)
         if len(data) < size:
-            raise MessageError(Code.BAD_LOG, "log: the file is cut off in a message")
+            raise MessageError(Code.CUT_OFF, "log: the file is cut off in a message")
         if kind != LogKind.BLANK:
             yield LogEntry(time, kind, data)
 
@@ -230,7 +232,7 @@ def _skip(file: IO[bytes], size: int) -> None:
     while size > 0:
         skipped = len(file.read(min(size, _CHUNK)))
         if not skipped:
-            raise MessageError(Code.BAD_LOG, "log: the file is cut off in its index")
+            raise MessageError(Code.CUT_OFF, "log: the file is cut off in its index")
         size -= skipped
 
 

@@ -15,6 +15,7 @@ from rsoccer.frame import team_of
 from rsoccer.matches import Episodes, Matches, Outcome
 from rsoccer.policies.shield import Shield
 from rsoccer.rng import WorldRng
+from rsoccer.task import LEARN
 from rsoccer.train.clock import Clock
 from rsoccer.train.opponents.policy_mix import PolicyMix
 from rsoccer.train.rollout.transition import shielded
@@ -57,7 +58,7 @@ class FixedTeams:
             mix = PolicyMix(matches.task, dict.fromkeys(names, 1.0), Clock())
             if mix.observes == "observation" and matches.history > 1:
                 raise ValueError("fixed: expected scripts in matches with a history")
-            group = assign(matches.task, {team: mix}, matches.worlds).groups[0]
+            group = assign(matches.task, {"all": LEARN, team: mix}, matches.worlds).groups[0]
             group.rng = streams.split(team)
             teams = np.array([team_of(agent) for agent in matches.agents])
             self._groups[team] = group, np.flatnonzero(teams == team)

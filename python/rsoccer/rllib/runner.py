@@ -114,6 +114,8 @@ class MatchesEnvRunner(MultiAgentEnvRunner):
         self._shield = None if shield is None else Shield(shield)
         self.num_envs = self.config.num_envs_per_env_runner
         self.matches = new_matches(settings, self.num_envs, self._first_seed(), "disabled")
+        if self._shield is not None and self.matches.task.action_table is not None:
+            raise ValueError(f"shield: expected a task with continuous actions, got {shield!r}")
         streams = secrets.randbits(63) if (seed := self._first_seed()) is None else seed
         self._fixed = FixedTeams(self.matches, fixed, streams)
         self._robots = RobotRows.of(self.matches)

@@ -115,7 +115,7 @@ class Args:
             )
         make_sensing(self.sensing)
         for name in ("task_options", "randomization"):
-            object.__setattr__(self, name, _as_json(getattr(self, name)))
+            object.__setattr__(self, name, _as_json(name, getattr(self, name)))
         if self.resume and self.overwrite:
             raise ValueError("resume and overwrite exclude each other, got both")
 
@@ -224,9 +224,9 @@ def _flat(settings: Mapping[str, Any]) -> dict[str, Any]:
     return flat
 
 
-def _as_json(options: Mapping[str, Any]) -> dict[str, Any]:
-    """Copy of the task's options as JSON values, with the models of files."""
+def _as_json(argument: str, options: Mapping[str, Any]) -> dict[str, Any]:
+    """Copy of the entries of an argument as JSON values, with the models of files."""
     try:
-        return {name: encoded(f"task_options: {name}", value) for name, value in options.items()}
+        return {name: encoded(f"{argument}: {name}", value) for name, value in options.items()}
     except (OSError, TypeError) as error:
         raise ValueError(str(error)) from error

@@ -22,7 +22,6 @@ from rsoccer.history import ObservationStack
 from rsoccer.matches import Matches
 from rsoccer.policies.network import Network
 from rsoccer.registry import make_task, task_with_options
-from rsoccer.senses import SensorModel
 from rsoccer.sensing_text import with_number
 from rsoccer.sources import make_sensing
 from rsoccer.task import Task
@@ -32,6 +31,7 @@ from rsoccer.train.distillation.settings import DistillArgs
 from rsoccer.train.distillation.student import Normalizer, new_student
 from rsoccer.train.network import initial_policy
 from rsoccer.train.run.folder import POLICY_FILE
+from rsoccer.train.run.log import FILE_NAME as LOG_FILE
 from rsoccer.train.run.log import append_row
 
 FINAL_RATE: Final = 0.05
@@ -89,7 +89,7 @@ def run_distillation(args: DistillArgs) -> Path:
     normalize = Normalizer(mean, std, float(first.clip))
     delays = _delays_in_steps(args, task, teacher.action_repeat)
     path = args.out / POLICY_FILE
-    if path.exists():
+    if path.exists() or (args.out / LOG_FILE).exists():  # the log of one that did not end, too
         raise ValueError(f"out: {args.out} holds a run; name another folder")
     args.out.mkdir(parents=True, exist_ok=True)
     settings = json.dumps(args.to_json(), indent=2)
@@ -204,10 +204,13 @@ def _matches(args: DistillArgs, task: Task) -> Iterator[Matches]:
         )
 
 
-def _with_delay(source: str | None, delay: float) -> Sensing | SensorModel | None:
+def _with_delay(source: str | None, delay: float) -> Sensing | None:
     """The senses of matches with a command delay, s: forecasts know its middle, as teams do."""
     sensing = make_sensing(source)
-    if not isinstance(sensing, Sensing) or sensing.forecast < 0.5:
+    if sensing is None:
+        return None
+    assert isinstance(sensing, Sensing), "the settings have checked it"
+    if sensing.forecast < 0.5:
         return sensing
     return with_number(sensing, "command_delay", delay)
 

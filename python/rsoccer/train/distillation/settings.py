@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Any, Self
 
+from rsoccer._core import Sensing
 from rsoccer.option_values import encoded
 from rsoccer.sources import make_sensing
 from rsoccer.train.distillation.task_settings import recommended_settings
@@ -72,7 +73,9 @@ class DistillArgs:
         expect("command_delays", bool(self.command_delays), "one or more times", ())
         words = f"at least one for each of the {len(self.command_delays)} command_delays"
         expect("worlds", self.worlds >= len(self.command_delays), words, self.worlds)
-        make_sensing(self.sensing)
+        is_known = isinstance(make_sensing(self.sensing), Sensing | None)
+        words = "a preset or a .json file, with which commands may be late"
+        expect("sensing", is_known, words, self.sensing)
         for name, value in self.randomization.items():
             owned = name not in ("sensing.command_delay", "sensing.command_jitter")
             expect("randomization", owned, "without command delays, see command_delays", name)

@@ -65,10 +65,16 @@ class ActorCritic(nn.Module):
         self.register_buffer("log_std", torch.full((action_size,), math.log(action_std)))
         mask = np.ones(observation_size, np.float32) if mask is None else mask
         self.register_buffer("mask", torch.tensor(mask), persistent=False)
-        with torch.no_grad():
-            # Inputs of 0 have gradients of 0, so these weights stay 0, also in the exported policy.
-            for network in (self.actor, self.critic):
-                next(network.parameters())[:, -observation_size:].mul_(self.mask)
+        self.clear_masked_weights()
+
+    @torch.no_grad()
+    def clear_masked_weights(self) -> None:
+        """Set the first weights of inputs that the networks do not read to 0.
+
+        Inputs of 0 have gradients of 0, so these weights stay 0, also in the exported policy.
+        """
+        for network in (self.actor, self.critic):
+            next(network.parameters())[:, -self.observation_size :].mul_(self.mask)
 
     @torch.no_grad()
     def set_mean_action(self, action: Sequence[float]) -> None:

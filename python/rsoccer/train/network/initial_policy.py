@@ -107,7 +107,7 @@ def _checked(
 
 @torch.no_grad()
 def copy_weights(policy: Network, stack: ObservationStack, model: ActorCritic) -> None:
-    """Give the actor the weights of a policy, and weights of 0 for inputs that it does not have.
+    """Give the actor the weights of a policy, and weights of 0 for inputs that it does not read.
 
     Args:
         policy: the policy, from `load`.
@@ -128,6 +128,7 @@ def copy_weights(policy: Network, stack: ObservationStack, model: ActorCritic) -
         )
     for parameter, part in zip(parameters, given, strict=True):
         parameter.copy_(torch.tensor(part))
+    model.clear_masked_weights()  # training does not change them, and a policy file has no mask
 
 
 def statistics(policy: Network, stack: ObservationStack) -> dict[str, Array]:

@@ -102,9 +102,22 @@ class OpponentPool(PolicyMix):
                 stacked = stack.stack(memory, rows, observations[rows])
                 held[rows] = network.choose(stacked, streams)
                 rng.put(rows, streams)
-        stack.push(memory, slice(None), observations, held)
+        selves = drawn >= self.latest_code
+        played = self._shielded(inputs, selves, held)
+        stack.push(memory, slice(None), observations, played)
         age += 1
-        return np.where((drawn < self.latest_code)[:, None, None], actions, held)
+        return np.where(selves[:, None, None], played, actions)
+
+    def _shielded(self, inputs: PolicyInput, selves: Mask, held: Floats) -> Floats:
+        """Actions of networks behind their shield, the same for all, as the learners' are."""
+        shield = next((network.shield for _, network in self._networks()), None)
+        worlds = np.flatnonzero(selves)
+        if shield is None or inputs.match is None or not len(worlds):
+            return held
+        played, part = held.copy(), held[worlds]
+        shield.apply(inputs.match.take(worlds), part)
+        played[worlds] = part
+        return played
 
     def show(self, network: Network, update: int) -> None:
         """Make a policy the latest one, and freeze it every `FREEZE_INTERVAL` updates.

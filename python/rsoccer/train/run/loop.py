@@ -5,6 +5,8 @@ from __future__ import annotations
 import dataclasses
 import time
 
+import numpy as np
+
 from rsoccer.train.rollout.episode_stats import Row
 from rsoccer.train.run import checkpoint, overlap
 from rsoccer.train.run.callback import Callback, Update
@@ -102,9 +104,11 @@ class Loop:
         if self._callback is None:
             return False
         answer = self._callback(Update(self.trainer.args, dict(row), self.trainer.network))
-        if answer not in (None, True, False):
+        if answer is None:
+            return False
+        if not isinstance(answer, bool | np.bool_):  # NumPy's comparisons return the latter
             raise TypeError(f"callback: expected it to return None or a bool, got {answer!r}")
-        return answer is False
+        return not answer
 
     def _update(self, stop: StopSignal, logger: Logger) -> Row:
         """Play and learn once, and return the row of the log.
