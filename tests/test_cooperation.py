@@ -8,6 +8,7 @@ import pytest
 import rsoccer
 from rsoccer import cli
 from rsoccer.evaluate.team_play import MEASURES
+from rsoccer.policies import make_policy
 from rsoccer.tasks import SslKeepaway, SslPassEndurance, SslSelfPlay, VssSelfPlay
 
 TASK = VssSelfPlay(max_steps=120)
@@ -61,6 +62,19 @@ def test_cross_play_mixes_two_policies_in_a_team() -> None:
     assert cross.gap.mean == pytest.approx(expected)
     assert "(2) zero" in str(found)
     assert "mixed teams less others" in str(found)
+
+
+def test_cross_play_takes_policies_of_one_class() -> None:
+    task = TASK
+    policies = [make_policy(f"scripted:{skill}", task) for skill in (0.3, 0.9)]
+    found = rsoccer.cooperation(
+        policies[0], "zero", 4, task=task, replacements=["zero"], partners=[policies[1]]
+    )
+    assert found.cross_play is not None
+    first, second = found.cross_play.policies
+    assert first != second
+    with pytest.raises(ValueError, match="partners: expected other policies, each once"):
+        rsoccer.cooperation(policies[0], "zero", 4, task=task, partners=[policies[0]])
 
 
 def test_one_sided_tasks_are_measured_from_their_side() -> None:

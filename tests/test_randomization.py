@@ -14,8 +14,11 @@ from rsoccer import (
     SimConfig,
     WorldRng,
 )
+from rsoccer._core import SENSING_NUMBERS
 from rsoccer.randomization import Randomization, Range, Ranges
 from rsoccer.tasks import VssSelfPlay
+from tests.robots import robots_of
+from tests.sensors import LateAndNoisy
 
 CONFIG = SimConfig("ssl_b", 2, 1)
 WORLDS = 4000
@@ -127,6 +130,39 @@ def test_an_episode_keeps_its_numbers_and_the_next_one_draws_new_ones() -> None:
             assert step % 6 == 5
     assert len(ends) == 5
     assert len(set(ends)) == 5
+
+
+def test_the_order_of_the_names_does_not_matter() -> None:
+    ranges = {"robot.speed": (0.5, 1.5), "ball.rolling_deceleration": (0.1, 0.3)}
+    reverse = dict(reversed(ranges.items()))
+    assert list(reverse) != list(ranges)
+    assert (speeds(3, 8, ranges) == speeds(3, 8, reverse)).all()
+
+
+@pytest.mark.parametrize("reverse", [False, True])
+def test_the_noise_of_one_body_comes_before_that_of_both(reverse: bool) -> None:
+    names = ["sensing.position_noise", "sensing.ball_position_noise"]
+    values = {"sensing.position_noise": (0.2, 0.3), "sensing.ball_position_noise": (0.0, 0.1)}
+    ranges = {name: values[name] for name in (reversed(names) if reverse else names)}
+    numbers = Randomization.of(ranges, VssSelfPlay().config, None).sensing
+    assert numbers is not None
+    rows = numbers.draw(WorldRng.seeded(0, 50))
+    ball, robots = (
+        rows[:, SENSING_NUMBERS.index(f"{body}_position_noise")] for body in ("ball", "robot")
+    )
+    assert ball.max() <= 0.1
+    assert robots.min() >= 0.2
+
+
+def test_what_cannot_vary_is_refused() -> None:
+    task = VssSelfPlay()
+    model = LateAndNoisy(task.config.row_size)
+    words = r"randomization: .* a sensor model of one's own, got \['sensing.delay'\]"
+    with pytest.raises(ValueError, match=words):
+        Matches(task, sensing=model, randomization={"sensing.delay": (0.0, 0.1)})
+    with pytest.raises(ValueError, match="randomization: Robots cannot place bodies"):
+        Matches(task, 2, simulator=robots_of(task, 2), randomization={"robot.mass": (0.5, 2.0)})
+    Matches(task, sensing=model, randomization={"robot.mass": (0.5, 2.0)}).reset()
 
 
 def test_senses_can_vary_alone() -> None:

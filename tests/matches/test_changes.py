@@ -1,6 +1,8 @@
 """Options, policies and starts that change while matches run."""
 
 import copy
+import dataclasses
+from functools import cached_property
 from typing import Any
 from unittest import mock
 
@@ -8,13 +10,16 @@ import numpy as np
 import pytest
 
 import rsoccer
+from rsoccer.arrays import Floats, Mask
 from rsoccer.envs.env_matches import EnvMatches
 from rsoccer.matches import Matches
 from rsoccer.observation_layout import ObservationLayout
+from rsoccer.play import Play
 from rsoccer.policies import Policy
 from rsoccer.policies.base import Observes, PolicyInput
 from rsoccer.registry import make_task
 from rsoccer.replay import Recorder
+from rsoccer.task import Task
 
 TASK = "VSSMulti-v0"
 N = 3
@@ -219,6 +224,60 @@ def test_copies_of_environments_keep_the_changes() -> None:
     starts = [each.reset()[0] for each in (env, other)]
     assert np.array_equal(starts[0], starts[1])
     assert isinstance(other.matches, EnvMatches)
+
+
+@pytest.mark.parametrize("given", ["scripted", "scripted:0.4", Seeing(0.3)])
+def test_copies_keep_groups_that_were_given_one_policy(given: str | Policy) -> None:
+    different = {f"yellow_{nth}": f"scripted:0.{nth}" for nth in range(3)}
+    env = rsoccer.single_env("VSS-v0", controllers=different)
+    env.reset(seed=0)
+    env.matches.change_controllers({"yellow": given})
+    env.step(np.zeros(2, np.float32))
+    other = copy.deepcopy(env)
+    for _ in range(20):
+        seen = [each.step(np.ones(2, np.float32))[0] for each in (env, other)]
+        assert np.array_equal(*seen)
+    env.reset(seed=7)
+    other.reset(seed=7)
+    assert np.array_equal(*[each.step(np.ones(2, np.float32))[0] for each in (env, other)])
+
+
+@dataclasses.dataclass(frozen=True)
+class LimitedByItsClass(Task):
+    """A task whose time limit is no option."""
+
+    max_steps = 1200
+    action_size = 2
+    weight: float = 1.0
+
+    @cached_property
+    def config(self) -> rsoccer.SimConfig:
+        return rsoccer.SimConfig(n_blue=1, n_yellow=0)
+
+    def get_initial_positions_frame(self, rng: rsoccer.WorldRng) -> rsoccer.Frame:
+        frame = rsoccer.Frame.empty(len(rng), 1, 0)
+        frame.robots.position[:] = 0.3
+        return frame
+
+    def get_commands(self, play: Play, actions: Floats) -> Floats:
+        return actions
+
+    def frame_to_observations(self, play: Play) -> dict[str, Floats]:
+        return {"position": play.sensed_view.ego.position}
+
+    def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
+        reward = np.full((len(play.steps), 1), self.weight, np.float32)
+        return {"reward": reward}, np.zeros(len(play.steps), np.bool_)
+
+
+def test_a_time_limit_that_is_no_option_survives_a_change() -> None:
+    matches = Matches(LimitedByItsClass(), max_steps=2)
+    matches.reset()
+    matches.change_options(weight=2.0)
+    outcomes = stepped(matches, 2)
+    assert matches.task.max_steps == 2
+    assert [float(outcome.rewards[0, 0]) for outcome in outcomes] == [2.0, 2.0]
+    assert [bool(outcome.truncated[0]) for outcome in outcomes] == [False, True]
 
 
 def test_an_attached_recorder_sees_whole_episodes_beside_automatic_resets() -> None:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from rsoccer.matches import Matches
+from rsoccer.task import LEARN
 from rsoccer.train import Args
 
 pytest.importorskip("torch")
@@ -17,6 +18,7 @@ from ray.rllib.algorithms.ppo import PPOConfig
 from ray.rllib.core.rl_module.default_model_config import DefaultModelConfig
 
 from rsoccer.rllib import League, MatchesEnvRunner, SoccerMultiAgentEnv
+from rsoccer.rllib.decisions import FixedTeams
 
 pytestmark = pytest.mark.filterwarnings("ignore::DeprecationWarning", "ignore::UserWarning")
 
@@ -192,3 +194,20 @@ def test_the_example_plays_matches_under_a_referee(
     played = runner.matches.task
     for name, value in (option.split("=") for option in options):
         assert str(getattr(played, name)) == value
+
+
+def test_policies_play_teams_of_which_the_task_lets_others_learn() -> None:
+    """In `VSS-v0` one robot learns by default, and noise drives the others."""
+    matches = Matches("VSS-v0", 2, SEED, controllers={"all": LEARN}, autoreset="disabled")
+    observations = matches.reset()
+    fixed = FixedTeams(matches, {"fixed_0": "chase"}, SEED)
+    modules = {robot: "fixed_0" if "yellow" in robot else "main" for robot in matches.agents}
+    for world in range(2):
+        fixed.begin(world, modules)
+    actions = np.zeros((2, 6, 2), np.float32)
+    fixed.act(observations, actions)
+    assert not actions[:, :3].any()
+    twin = Matches("VSS-v0", 2, SEED, controllers={"blue": LEARN, "yellow": "chase"})
+    twin.reset()
+    twin.step(np.zeros((2, 3, 2), np.float32))
+    np.testing.assert_array_equal(actions[:, 3:], twin.play.actions[:, 3:])

@@ -1,6 +1,6 @@
 """Modules of RLlib as policies, against the modules themselves."""
 
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
@@ -156,3 +156,20 @@ def test_other_modules_are_refused() -> None:
         from_rllib(module_of(), "SSLGoToBall-v0")
     with pytest.raises(ValueError, match="Linear with bias"):
         from_rllib(module_of(fcnet_activation="linear"), TASK)
+
+
+def test_an_alias_of_a_task_is_found() -> None:
+    module = module_of()
+
+    class Config:
+        policies: ClassVar = {"shared": None}
+        env_config: ClassVar = {"task": "VSSFIRA-v0", "max_steps": 9, "frozen": ["old"]}
+
+    class Algorithm:
+        config = Config()
+
+        def get_module(self, name: str) -> Any:  # noqa: ANN401
+            return module
+
+    network = from_rllib(Algorithm())
+    assert network.task_options["max_steps"] == 9

@@ -143,6 +143,11 @@ def test_the_environment_names_what_it_refuses() -> None:
         SoccerMultiAgentEnv({"task": TASK, "unknown": 1})
 
 
+def test_a_shield_needs_continuous_actions() -> None:
+    with pytest.raises(ValueError, match="shield: expected a task with continuous actions"):
+        runner_of(task="VSS-v0", discrete=True, shield="vsss")
+
+
 def test_rllibs_own_runner_reports_metrics_by_the_callback() -> None:
     config = config_of(runner=MultiAgentEnvRunner).callbacks(MetricsCallback)
     runner = MultiAgentEnvRunner(config=config)

@@ -112,6 +112,22 @@ def test_a_match_that_is_done_waits_and_remains_done() -> None:
     assert ends == [False, True, True, True]
 
 
+def test_a_reset_of_some_matches_keeps_the_metrics_of_others() -> None:
+    env = SoccerEnv("SSLGoToBall-v0", WORLDS, seed=0)
+    env.reset()
+    played = env.rand_step()["next"]
+    seconds = played["metrics", "seconds"].clone()
+    assert (seconds > 0.0).all()
+    mask = torch.zeros(WORLDS, 1, dtype=torch.bool)
+    mask[1] = True
+    again = env.reset(played.clone().set("_reset", mask))
+    assert again["metrics", "seconds"][mask].item() == 0.0
+    assert torch.equal(again["metrics", "seconds"][~mask], seconds[~mask])
+    assert torch.equal(played["metrics", "seconds"], seconds), "it was given before"
+    places = {value.data_ptr() for value in again["metrics"].values()}
+    assert len(places) == len(again["metrics"].keys())
+
+
 def test_a_rollout_without_a_seed_differs() -> None:
     first, second = (SoccerEnv(TASK, WORLDS).reset()["blue", "observation"] for _ in range(2))
     assert not torch.equal(first, second)

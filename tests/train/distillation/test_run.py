@@ -60,9 +60,13 @@ def test_wrong_settings_are_refused(tmp_path: Path) -> None:
         args(tmp_path, command_delays=())
     with pytest.raises(ValueError, match="teacher: expected a trained policy, got 'fetch'"):
         distill(args(tmp_path, teacher="fetch"))
-    (tmp_path / "policy.safetensors").touch()
-    with pytest.raises(ValueError, match=r"out: .*holds a run"):
-        distill(args(tmp_path))
+    with pytest.raises(ValueError, match=r"sensing must be a preset or a \.json file, with which"):
+        args(tmp_path, sensing="tests.simulators:Blind")
+    for name in ("policy.safetensors", "progress.csv"):
+        (tmp_path / name).touch()
+        with pytest.raises(ValueError, match=r"out: .*holds a run"):
+            distill(args(tmp_path))
+        (tmp_path / name).unlink()
 
 
 def test_the_recorded_delays_are_those_that_matches_draw(tmp_path: Path) -> None:

@@ -46,6 +46,21 @@ def test_a_run_begins_as_the_policy_plays(history: int, tmp_path: Path) -> None:
     run.close()
 
 
+def test_inputs_that_the_run_does_not_read_have_no_weights(tmp_path: Path) -> None:
+    """The policy that is saved has no mask, so it must not read them either."""
+    run = trainer(tmp_path, masked_observations=("ball",))
+    network, layout = run.network(), run.task.layout
+    ball = layout.blocks["ball"].columns
+    weights = network.layers[0][0]
+    assert not weights[:, ball].any()
+    assert np.count_nonzero(weights) == weights.size - weights[:, ball].size
+    observations = np.random.default_rng(0).normal(size=(7, layout.size)).astype(np.float32)
+    before = network.mean_actions(observations)
+    observations[:, ball] += 1.0
+    np.testing.assert_array_equal(network.mean_actions(observations), before)
+    run.close()
+
+
 def test_past_observations_are_normalized_as_the_current_one() -> None:
     task = rsoccer.make_task(TASK)
     stack, size = ObservationStack.of(task, 3), task.layout.size

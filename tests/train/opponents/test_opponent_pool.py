@@ -9,15 +9,17 @@ from rsoccer.arrays import Array, Floats
 from rsoccer.history import ObservationStack
 from rsoccer.matches import Matches
 from rsoccer.policies import make_policy
-from rsoccer.policies.base import PolicyInput
+from rsoccer.policies.base import MatchState, PolicyInput
 from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import FORMAT
+from rsoccer.policies.shield import Shield
 from rsoccer.registry import make_task
 from rsoccer.rng import WorldRng
 from rsoccer.train.clock import Clock
 from rsoccer.train.opponents import opponent_pool
 from rsoccer.train.opponents.opponent_pool import OpponentPool
 from rsoccer.train.opponents.policy_mix import PolicyMix
+from tests.policies.networks import network_for
 
 TASK = make_task("VSSSelfPlay-v0")
 ZERO, OU, LATEST, PAST = range(4)  # codes of the pool in these tests
@@ -257,3 +259,44 @@ def test_scripts_and_files_are_opponents(tmp_path: Path) -> None:
         np.testing.assert_allclose(matches.play.frame.rows[rows], expected, atol=1e-5)
     moved = alone["chase"].play.frame.rows - alone[str(path)].play.frame.rows
     assert np.abs(moved).max(axis=1).min() > 0.01, "all policies play alike"
+
+
+@pytest.mark.parametrize("action_repeat", [1, 3])
+def test_selves_play_behind_the_shield_of_the_learners(action_repeat: int) -> None:
+    task = make_task("VSSMatch-v0")
+    network = network_for(task)
+    network.shield = Shield("vsss")
+    stack = ObservationStack.of(task, 1)
+    pool = OpponentPool(task, {"zero": 1.0}, (0.6, 0.4), action_repeat, Clock(), stack)
+    pool.show(network, 0)
+    seen: list[tuple[int, list[int]]] = []
+
+    def block(match: MatchState, actions: Floats) -> None:
+        seen.append((len(match.rows), match.robots.tolist()))
+        assert len(match.rows) == len(actions)
+        actions[...] = 0.25
+
+    network.shield.apply = block  # type: ignore[method-assign]
+    matches = Matches(task, 6, 0, controllers={"yellow": pool})
+    matches.reset()
+    steps = 4
+    for _ in range(steps):
+        matches.step(np.zeros((6, 3, 2), np.float32))
+        assert (matches.play.actions[:, 3:] == 0.25).all()
+    assert seen == [(6, [3, 4, 5])] * steps, "in each control step, in all matches of selves"
+
+
+def test_fixed_policies_have_no_shield() -> None:
+    task = make_task("VSSMatch-v0")
+    network = network_for(task)
+    network.shield = Shield("vsss")
+    pool = OpponentPool(task, {"zero": 1.0}, (0.5, 0.0), 1, Clock(), ObservationStack.of(task, 1))
+    pool.latest = network
+    worlds = []
+    network.shield.apply = lambda match, actions: worlds.append(len(match.rows))  # type: ignore[method-assign]
+    matches = Matches(task, 40, 0, controllers={"yellow": pool})
+    matches.reset()
+    matches.step(np.zeros((40, 3, 2), np.float32))
+    assert worlds == [int((pool.drawn == 1).sum())]
+    assert 0 < worlds[0] < 40
+    assert not matches.play.actions[pool.drawn == 0, 3:].any()

@@ -34,8 +34,11 @@ def test_a_callback_gets_each_update_and_changes_nothing(tmp_path: Path, finishe
     assert np.array_equal(Network.load(policy).layers[0][0], last.layers[0][0])
 
 
-def test_false_ends_the_run_which_can_be_resumed(tmp_path: Path, finished: Path) -> None:
-    train(tiny(tmp_path), lambda update: update.number < 1)
+@pytest.mark.parametrize("kind", [bool, np.bool_])
+def test_false_ends_the_run_which_can_be_resumed(
+    kind: type[bool] | type[np.bool_], tmp_path: Path, finished: Path
+) -> None:
+    train(tiny(tmp_path), lambda update: kind(update.number < 1))  # type: ignore[arg-type,return-value]
     assert [row["update"] for row in progress(tmp_path)] == ["1"]
     assert (tmp_path / "policy.safetensors").exists()
     train(tiny(tmp_path, resume=True))
@@ -50,6 +53,8 @@ def test_an_error_comes_after_the_run_was_saved(tmp_path: Path, finished: Path) 
         train(tiny(tmp_path), fails)
     with pytest.raises(TypeError, match="expected it to return None or a bool, got 'stop'"):
         train(tiny(tmp_path, resume=True), lambda update: "stop")  # type: ignore[arg-type,return-value]
+    with pytest.raises(TypeError, match="expected it to return None or a bool, got 0"):
+        train(tiny(tmp_path, resume=True), lambda update: 0)  # type: ignore[arg-type,return-value]
     train(tiny(tmp_path, resume=True))
     assert digest(tmp_path) == digest(finished)
 
