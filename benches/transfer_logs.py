@@ -98,7 +98,7 @@ def record(place: str, ports: dict[str, int], speed: float, turn: float) -> Log:
 
 def _follow(connection: Connection, model: RobotModel, speed: float, turn: float) -> list[Row]:
     """Rows of the log."""
-    plan = program(model, speed=speed, angular_velocity=turn)
+    plan = program(model, max_speed=speed, max_angular_velocity=turn)
     columns, config = DRIVES[plan.drive], connection.config
     stepper = NetworkSimulator(connection, is_owner=False)
     state, rows = Frame.empty(1, 1, 0), list[Row]()

@@ -1,8 +1,10 @@
 """`rsoccer identify`."""
 
+import io
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from rsoccer import RobotModel, cli
@@ -43,6 +45,24 @@ def test_the_program_is_printed_or_written(
     assert rows[1].startswith("0.0333,")
 
 
+def test_a_slower_program_is_shorter_and_waits_for_the_ball(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    def rows(*options: str) -> np.ndarray:
+        assert cli.main(["identify", "--program", *options]) == 0
+        text = capsys.readouterr().out
+        return np.genfromtxt(io.StringIO(text), delimiter=",", skip_header=1)
+
+    slow = rows("--max-speed", "1.5", "--max-angular-velocity", "3", "--pause", "5")
+    usual = rows()
+    assert np.hypot(usual[:, 1], usual[:, 2]).max() > 3.0
+    assert np.hypot(slow[:, 1], slow[:, 2]).max() <= 1.5 + 1e-6
+    assert np.abs(slow[:, 3]).max() <= 3.0 + 1e-6
+    kicks = [each[each[:, 4] > 0, 0] for each in (usual, slow)]
+    pauses = [np.diff(times)[np.diff(times) > 1.0].min() for times in kicks]
+    assert pauses[1] - pauses[0] == pytest.approx(4.5, abs=0.1)
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [
@@ -52,6 +72,9 @@ def test_the_program_is_printed_or_written(
         (["gone.csv", "--program"], "expected none with --program"),
         (["--program", "--robot", "nobody"], "nobody"),
         (["--program", "--rate", "0"], "rate"),
+        (["--program", "--max-speed", "0"], "max_speed: expected"),
+        (["--program", "--max-angular-velocity", "-1"], "max_angular_velocity: expected"),
+        (["--program", "--pause", "0"], "pause: expected"),
     ],
 )
 def test_wrong_words_are_refused(

@@ -189,7 +189,7 @@ def test_kicks_by_two_clocks(ssl_log: Log) -> None:
 
 
 def test_what_commands_do_not_show_is_not_identified() -> None:
-    forward = program(SSL, speed=1.0, angular_velocity=1.0)
+    forward = program(SSL, max_speed=1.0, max_angular_velocity=1.0)
     only = forward.wheels * np.array([1.0, 0.0, 0.0])
     straight = type(forward)("omni", forward.times, only, 0.0 * forward.kicks, forward.seconds, ())
     found = identify(record(SSL, sensing=Sensing("rc2021", delay=0.05), excitation=straight))
@@ -226,7 +226,7 @@ def test_mixed_up_units_are_refused_with_a_hint(
 
 
 def test_small_commands_in_degrees_are_noticed_too() -> None:
-    slow = program(SSL, speed=1.0, angular_velocity=1.5)
+    slow = program(SSL, max_speed=1.0, max_angular_velocity=1.5)
     log = record(SSL, excitation=slow)
     rows = rows_of(log)
     for row in rows:

@@ -25,9 +25,10 @@ def test_a_program_commands_every_number_there_and_back(robot: str) -> None:
 
 
 def test_speeds_can_be_given() -> None:
-    made = program("ssl_generic", speed=1.5, angular_velocity=4.0, pause=3.0)
+    made = program("ssl_generic", max_speed=1.5, max_angular_velocity=4.0, pause=3.0)
     assert made.wheels.max(axis=0).tolist() == [1.5, 1.5, 4.0]
-    assert made.seconds > program("ssl_generic", speed=1.5, angular_velocity=4.0).seconds + 7.0
+    without = program("ssl_generic", max_speed=1.5, max_angular_velocity=4.0)
+    assert made.seconds > without.seconds + 7.0
     top = RobotModel("ssl_generic").top_speed
     assert program("ssl_generic").wheels[:, 0].max() > 1.1 * top
 
@@ -55,7 +56,7 @@ def test_faulty_programs_are_refused() -> None:
     with pytest.raises(TypeError, match="robot"):
         program(3)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="speed"):
-        program(speed=0.0)
+        program(max_speed=0.0)
     with pytest.raises(ValueError, match="pause"):
         program(pause=-1.0)
     with pytest.raises(ValueError, match="rate"):

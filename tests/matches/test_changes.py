@@ -235,11 +235,12 @@ def test_copies_keep_groups_that_were_given_one_policy(given: str | Policy) -> N
     env.step(np.zeros(2, np.float32))
     other = copy.deepcopy(env)
     for _ in range(20):
-        seen = [each.step(np.ones(2, np.float32))[0] for each in (env, other)]
-        assert np.array_equal(*seen)
+        first, second = (each.step(np.ones(2, np.float32))[0] for each in (env, other))
+        assert np.array_equal(first, second)
     env.reset(seed=7)
     other.reset(seed=7)
-    assert np.array_equal(*[each.step(np.ones(2, np.float32))[0] for each in (env, other)])
+    first, second = (each.step(np.ones(2, np.float32))[0] for each in (env, other))
+    assert np.array_equal(first, second)
 
 
 @dataclasses.dataclass(frozen=True)

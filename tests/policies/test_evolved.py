@@ -77,13 +77,15 @@ def test_a_file_comes_back(script: str, tmp_path: Path) -> None:
     kind = SCRIPTS[script]
     rng = np.random.default_rng(0)
     tactics = [rng.uniform(tactic.least, tactic.most) for tactic in kind.TACTICS]
-    policy = Evolved.of_training(script, task, tactics, {}, "rc2021")
+    varied = {"robot.mass": [0.9, 1.1]}
+    policy = Evolved.of_training(script, task, tactics, {}, "rc2021", varied)
     path = tmp_path / "policy.safetensors"
     policy.save(path)
     read = make_policy(path, task)
     assert isinstance(read, Evolved)
     np.testing.assert_array_equal(read.tactics, np.array(tactics, np.float32))
     assert read.sensing == rsoccer.Sensing("rc2021")
+    assert read.randomization == varied
     assert (read.forecasts, read.needs_forecast) == (True, False)
     again = tmp_path / "again.safetensors"
     read.save(again)

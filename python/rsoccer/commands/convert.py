@@ -8,6 +8,7 @@ from typing import Annotated, Final
 
 from tyro.conf import Positional, arg
 
+from rsoccer.commands.imports import Imports
 from rsoccer.commands.output import check_output, write
 from rsoccer.replay.replay import SUFFIX, Replay
 
@@ -15,7 +16,7 @@ _LOG_SUFFIXES: Final = (".log", ".gz")
 
 
 @dataclass(frozen=True)
-class Convert:
+class Convert(Imports):
     """Convert a replay (.rsr) to a log of the Small Size League (.log, .log.gz), or back."""
 
     source: Annotated[Path, Positional, arg(metavar="FILE")]

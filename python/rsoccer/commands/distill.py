@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 from tyro.conf import arg
 
+from rsoccer.commands.imports import Imports
 from rsoccer.commands.output import write
 from rsoccer.commands.task_options import RANDOMIZATION
 from rsoccer.train.distillation import DistillArgs, distill
@@ -22,7 +23,7 @@ class CommandDistillArgs(DistillArgs):
 
 
 @dataclass(frozen=True)
-class Distill:
+class Distill(Imports):
     """Teach a policy with late and noisy senses what a policy on the true state does."""
 
     args: Annotated[CommandDistillArgs, arg(name="")]

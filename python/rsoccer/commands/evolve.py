@@ -8,8 +8,9 @@ from typing import Annotated, Any
 
 from tyro.conf import arg
 
+from rsoccer.commands.imports import Imports
 from rsoccer.commands.output import write
-from rsoccer.commands.task_options import TASK_OPTIONS
+from rsoccer.commands.task_options import RANDOMIZATION, TASK_OPTIONS
 from rsoccer.train.evolution import EvolveArgs, evolve
 
 
@@ -19,10 +20,12 @@ class CommandEvolveArgs(EvolveArgs):
 
     task_options: Annotated[Mapping[str, Any], TASK_OPTIONS] = field(default_factory=dict)
     """options of the task (`rsoccer list` prints them), such as half_seconds=60"""
+    randomization: Annotated[Mapping[str, Any], RANDOMIZATION] = field(default_factory=dict)
+    """numbers that each episode draws, by name, such as robot.mass=0.9,1.1"""
 
 
 @dataclass(frozen=True)
-class Evolve:
+class Evolve(Imports):
     """Find better numbers of a script by playing matches."""
 
     args: Annotated[CommandEvolveArgs, arg(name="")]

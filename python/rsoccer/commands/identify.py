@@ -13,6 +13,7 @@ from rsoccer.commands.output import check_output, write
 from rsoccer.identify import identify, program, read_log, report
 
 _BY_LOG = "(default: that of the log's commands)"
+_BEYOND = arg(help_behavior_hint="(default: somewhat more than the model's)")
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,12 @@ class Identify(Imports):
     """print commands that show all numbers in place of a fit, for a robot to follow"""
     rate: float = 60.0
     """commands a second of the program"""
+    max_speed: Annotated[float | None, _BEYOND] = None
+    """greatest speed of the program, m/s; half of it needs a quarter of the space"""
+    max_angular_velocity: Annotated[float | None, _BEYOND] = None
+    """greatest angular velocity of the program, rad/s"""
+    pause: float = 0.5
+    """time in the program to bring the ball before each kick or roll, seconds"""
 
     def run(self) -> None:
         """Fit the log and print the numbers, or print the program.
@@ -61,7 +68,13 @@ class Identify(Imports):
         if self.log:
             raise ValueError("log: expected none with --program")
         check_output("out", self.out, ".csv")
-        text = program(self.robot or "ssl_generic").to_csv(self.rate)
+        made = program(
+            self.robot or "ssl_generic",
+            max_speed=self.max_speed,
+            max_angular_velocity=self.max_angular_velocity,
+            pause=self.pause,
+        )
+        text = made.to_csv(self.rate)
         if self.out is None:
             write(text.rstrip("\n"))
         else:

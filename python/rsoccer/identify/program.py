@@ -85,8 +85,8 @@ class Program:
 def program(
     robot: str | RobotModel = "ssl_generic",
     *,
-    speed: float | None = None,
-    angular_velocity: float | None = None,
+    max_speed: float | None = None,
+    max_angular_velocity: float | None = None,
     pause: float = 0.5,
 ) -> Program:
     """Return a program of steps forward, sideways, turning and combined, and of kicks or rolls.
@@ -97,10 +97,10 @@ def program(
 
     Args:
         robot: the robot's model or the name of its preset; its limits set the lengths of steps.
-        speed: greatest commanded speed, m/s; None for 1.15 of the model's top speed, which shows
-            only if more is commanded.
-        angular_velocity: greatest commanded angular velocity, rad/s; None for 1.15 of the model's,
-            at most 20.
+        max_speed: greatest commanded speed, m/s; None for 1.15 of the model's top speed, which
+            shows only if more is commanded.
+        max_angular_velocity: greatest commanded angular velocity, rad/s; None for 1.15 of the
+            model's, at most 20.
         pause: time to bring the ball before each kick or roll, s.
 
     Raises:
@@ -112,10 +112,12 @@ def program(
     if not isinstance(model, RobotModel):
         raise TypeError(f"robot: expected a RobotModel or the name of a preset, got {robot!r}")
     check_drive(model)
-    fastest = positive_number("speed", _BEYOND * model.top_speed if speed is None else speed)
+    fastest = positive_number(
+        "max_speed", _BEYOND * model.top_speed if max_speed is None else max_speed
+    )
     turn = min(_BEYOND * model.top_angular_velocity, _MAX_ANGULAR_VELOCITY)
     turn = positive_number(
-        "angular_velocity", turn if angular_velocity is None else angular_velocity
+        "max_angular_velocity", turn if max_angular_velocity is None else max_angular_velocity
     )
     pieces = _Pieces(len(DRIVES[model.drive]))
     steps = _omni_steps if model.drive == "omni" else _wheel_steps

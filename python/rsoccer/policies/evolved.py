@@ -42,6 +42,7 @@ from rsoccer.task import Task
 
 if TYPE_CHECKING:
     from rsoccer._core import Sensing
+    from rsoccer.randomization import Ranges
     from rsoccer.sources import SensingSource
 
 FORMAT: Final = "rsoccer-tactics-1"
@@ -80,6 +81,7 @@ class Evolved(Policy):
         tactics: ArrayLike,
         task_options: Mapping[str, Any],
         sensing: SensingSource | None = None,
+        randomization: Ranges | None = None,
     ) -> Self:
         """Return the policy that a training has found.
 
@@ -89,6 +91,7 @@ class Evolved(Policy):
             tactics: (tactics,) numbers by which it plays.
             task_options: options of the task that the training set.
             sensing: what robots knew in the training.
+            randomization: numbers that each episode drew.
 
         Raises:
             ValueError: see the class.
@@ -97,7 +100,7 @@ class Evolved(Policy):
         metadata["names"] = names_of(SCRIPTS[script])
         if task_options:
             metadata["task_options"] = json.dumps(dict(task_options), sort_keys=True)
-        return cls(task, tactics, metadata | training_conditions.written(sensing, None))
+        return cls(task, tactics, metadata | training_conditions.written(sensing, randomization))
 
     @classmethod
     def load(cls, path: str | os.PathLike[str], task: Task | None = None) -> Self:
@@ -139,6 +142,11 @@ class Evolved(Policy):
     def sensing(self) -> Sensing | str | None:
         """Senses of the robots in the training, a `Sensing` or "module:name"; None for none."""
         return training_conditions.read_sensing(self.metadata)
+
+    @property
+    def randomization(self) -> dict[str, Any]:
+        """Numbers that each episode of the training drew, by name; {} for none."""
+        return training_conditions.read_randomization(self.metadata)
 
     def check_fits(self, task: Task, observation_size: int) -> None:
         """Raise ValueError for a task with another field, other robots or other teams."""

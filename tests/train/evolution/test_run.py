@@ -31,11 +31,13 @@ def rows(folder: Path) -> list[dict[str, str]]:
 
 
 def test_a_policy_and_a_log_are_written(tmp_path: Path) -> None:
-    given = args(tmp_path / "run", sensing="rc2021", step_size=20.0, seed=3)
+    varied = {"robot.mass": [0.9, 1.1]}
+    given = args(tmp_path / "run", sensing="rc2021", randomization=varied, step_size=20.0, seed=3)
     path = evolve(given)
     policy = Evolved.load(path)
     assert (policy.task_name, policy.task_options) == ("SSLMatch-v0", OPTIONS)
     assert policy.sensing == rsoccer.Sensing("rc2021")
+    assert policy.randomization == varied
     settings = json.loads((tmp_path / "run" / "args.json").read_text())
     assert settings == given.to_json()
     assert [row["generation"] for row in rows(tmp_path / "run")] == ["1", "2"]

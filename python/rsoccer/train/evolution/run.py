@@ -123,6 +123,7 @@ def _play(args: EvolveArgs, task: Task, kind: Kind, tactics: Doubles, seed: int)
         worlds=len(tactics),
         threads=args.threads,
         sensing=args.sensing,
+        randomization=args.randomization or None,
     )
     scores = runner.run(len(tactics), seed).scores
     return -scores if side == SIDES[1] else scores
@@ -176,7 +177,8 @@ def _keep(
 def _policy(args: EvolveArgs, task: Task, strategy: Strategy) -> Evolved:
     """The script with the present tactics."""
     tactics = strategy.tactics().astype(np.float32)
-    return Evolved.of_training(args.script, task, tactics, args.task_options, args.sensing)
+    matches = args.sensing, args.randomization
+    return Evolved.of_training(args.script, task, tactics, args.task_options, *matches)
 
 
 def _words(kind: Kind) -> str:

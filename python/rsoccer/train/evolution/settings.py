@@ -71,6 +71,8 @@ class EvolveArgs:
     sensing: str | None = None
     """senses of the robots: a preset's name, also with numbers as in "rc2021, delay=0.1", a .json
     file, or module:name"""
+    randomization: Mapping[str, Any] = field(default_factory=dict)
+    """numbers that each episode draws, by name, such as {"robot.mass": [0.9, 1.1]}"""
     seed: Natural = 0
     """random seed; equal settings give equal runs"""
     threads: Count = 1
@@ -81,10 +83,10 @@ class EvolveArgs:
     def __post_init__(self) -> None:
         """Convert and check the values."""
         convert_fields(self)
-        options = {
-            name: encoded(f"task_options: {name}", v) for name, v in self.task_options.items()
-        }
-        object.__setattr__(self, "task_options", options)
+        for setting in ("task_options", "randomization"):
+            given = getattr(self, setting)
+            values = {name: encoded(f"{setting}: {name}", value) for name, value in given.items()}
+            object.__setattr__(self, setting, values)
         expect("matches", self.matches % 2 == 0, "an even number", self.matches)
         expect("script", self.script in SCRIPTS, f"one of {tuple(SCRIPTS)}", self.script)
         make_sensing(self.sensing)
@@ -110,4 +112,5 @@ class EvolveArgs:
     def to_json(self) -> dict[str, Any]:
         """Return the settings as JSON values by name."""
         values = {name: list(v) if isinstance(v, tuple) else v for name, v in vars(self).items()}
-        return {**values, "out": str(self.out), "task_options": dict(self.task_options)}
+        values |= {"task_options": dict(self.task_options)}
+        return {**values, "out": str(self.out), "randomization": dict(self.randomization)}
