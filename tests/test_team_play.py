@@ -32,7 +32,7 @@ def measured(start: Frame, side: str = "blue", steps: int = 60) -> dict[str, Dou
 def test_a_pass_to_a_teammate_is_one_of_its_team() -> None:
     blue, yellow = (measured(scene(TASK, **PASS), side) for side in ("blue", "yellow"))
     assert (blue["passes"][0], blue["lost"][0]) == (1.0, 0.0)
-    assert (blue["possession"][0], yellow["possession"][0]) == (1.0, 0.0)
+    assert (blue["ball_share"][0], yellow["ball_share"][0]) == (1.0, 0.0)
     assert (yellow["passes"][0], yellow["lost"][0]) == (0.0, 0.0)
 
 
@@ -40,8 +40,8 @@ def test_a_ball_to_an_opponent_is_lost() -> None:
     poses = {**PASS, "blue_1": (-2.0, -1.5), "yellow_0": (1.0, 0.0, np.pi)}
     blue, yellow = (measured(scene(TASK, **poses), side) for side in ("blue", "yellow"))
     assert (blue["passes"][0], blue["lost"][0]) == (0.0, 1.0)
-    assert blue["possession"][0] + yellow["possession"][0] == pytest.approx(1.0)
-    assert 0.1 < yellow["possession"][0] < 0.9
+    assert blue["ball_share"][0] + yellow["ball_share"][0] == pytest.approx(1.0)
+    assert 0.1 < yellow["ball_share"][0] < 0.9
 
 
 def test_neighbors_that_hand_the_ball_over_do_not_pass() -> None:
@@ -115,4 +115,4 @@ def test_each_match_is_measured_alone_and_to_its_end() -> None:
         alone = np.concatenate([single[name] for single in singles])
         assert (batch[name] == alone).all(), name
     assert len(np.unique(batch["spread"])) == 3
-    assert 0.0 < batch["possession"].mean() <= 1.0
+    assert 0.0 < batch["ball_share"].mean() <= 1.0

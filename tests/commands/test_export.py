@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from rsoccer import cli, policies
+from rsoccer.policies.evolved import Evolved
 from rsoccer.policies.network import Network
 from rsoccer.policies.onnx_policy import OnnxPolicy
 from tests.policies.networks import random_network
@@ -32,6 +33,23 @@ def test_files_are_named_after_the_policy(
     best = policies.make_policy("best:robust", "VSS-v0")
     assert isinstance(best, Network)
     assert Network.load("best-robust-VSS-v0.safetensors").metadata == best.metadata
+
+
+def test_learned_tactics_are_written_as_a_policy_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert cli.main(["export", "best", "--task", "SSLMatch-v0"]) == 0
+    best = policies.make_policy("best", "SSLMatch-v0")
+    assert isinstance(best, Evolved)
+    written = Evolved.load("best-SSLMatch-v0.safetensors")
+    assert written.metadata == best.metadata
+    assert (written.tactics == best.tactics).all()
+    assert "onnx: expected a policy with a network, got best of SSLMatch-v0, a script" in error(
+        ["best", "--task", "SSLMatch-v0", "--onnx"], capsys
+    )
+    with pytest.raises(ValueError, match=r"learned tactics, which .*Evolved\.load reads"):
+        Network.load("best-SSLMatch-v0.safetensors")
 
 
 def test_other_policies_and_files_are_refused(

@@ -106,7 +106,8 @@ def test_files_with_the_skills_of_a_match_play_it(tmp_path: Path) -> None:
     assert isinstance(best, Network)
     assert own.mode == "mean"
     assert all(np.array_equal(a, best.arrays()[name]) for name, a in own.arrays().items())
-    with pytest.raises(ValueError, match="a network trained on 'VSSSelfPlay-v0' has observation"):
+    message = r"a network trained on 'VSSSelfPlay-v0' has observation.*; it plays 'VSSSelfPlay-v0':"
+    with pytest.raises(ValueError, match=message):
         policies.make_policy(tmp_path / "a.safetensors", rsoccer.make_task("SSLMatch-v0"))
 
 
@@ -121,6 +122,8 @@ def test_the_error_names_the_tasks_that_have_a_policy(folder: Path) -> None:
     with pytest.raises(
         ValueError, match="best: a network trained on 'VSSMulti-v0' has observation_s"
     ):
+        policies.make_policy("best", rsoccer.make_task("VSSMulti-v0", n_yellow=5))
+    with pytest.raises(ValueError, match="; it plays 'VSSMulti-v0' with n_yellow=3: the network"):
         policies.make_policy("best", rsoccer.make_task("VSSMulti-v0", n_yellow=5))
     for path in folder.iterdir():
         path.unlink()

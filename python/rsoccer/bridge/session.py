@@ -13,7 +13,7 @@ from rsoccer.bridge.arena import Arena
 from rsoccer.bridge.clocks import ScaledClock
 from rsoccer.bridge.match_tasks import make_match
 from rsoccer.bridge.refusals import Reason, Refusal
-from rsoccer.bridge.settings import Settings
+from rsoccer.bridge.settings import BLUE_ON_POSITIVE_HALF, Settings
 from rsoccer.bridge.stand_ins import StandIns
 from rsoccer.bridge.team import Address, Team
 from rsoccer.protocols.layout import TEAMS, WireLayout
@@ -68,7 +68,7 @@ class Session:
             forecasting=self.stand_ins.forecasting,
         )
         side = settings.blue_on_positive_half
-        self._on_positive = settings.league == "vsss" if side is None else side
+        self._on_positive = BLUE_ON_POSITIVE_HALF[settings.league] if side is None else side
         self.layout = self._new_layout()
         self.teams = tuple(
             Team(team, self.layout, settings.command_timeout, settings.client_timeout)

@@ -51,6 +51,9 @@ OWN_OPTIONS: Final[Mapping[str, Mapping[str, str]]] = {
 }
 """Options of the match tasks that a server sets itself, by league, and what to give instead."""
 
+BLUE_ON_POSITIVE_HALF: Final[Mapping[str, bool]] = {"ssl": False, "vsss": True}
+"""Whether blue's goal is at +x on the wire, by league: as grSim and FIRASim have it."""
+
 
 def default_ports(league: str) -> Mapping[str, int]:
     """Return the ports of a league by name.
@@ -83,8 +86,8 @@ class Settings:
         blue: policy of blue's robots that no client drives; None if they stand still.
         yellow: the same of yellow.
         referee: one of `REFEREES`.
-        blue_on_positive_half: whether blue's goal is at +x on the wire; None for yes in VSSS, as
-            FIRASim has it, and no in the SSL, as grSim has it.
+        blue_on_positive_half: whether blue's goal is at +x on the wire; None for
+            `BLUE_ON_POSITIVE_HALF`.
         command_timeout: simulated time after which a robot without a command stops, s.
         client_timeout: time after which a silent client has left its team, s.
         allow_remote_control: whether other machines may control the simulator.

@@ -14,9 +14,11 @@ from rsoccer.commands.imports import Imports
 from rsoccer.commands.output import check_output, write
 from rsoccer.commands.subject import DEFAULT_TASK_HINT, check_policy_names, policy_and_task
 from rsoccer.commands.task_options import TASK_OPTIONS
+from rsoccer.policies.evolved import Evolved
 from rsoccer.policies.labels import labels
 from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import ONNX_SUFFIX, SUFFIX
+from rsoccer.task import Task
 
 _OUT_HINT = "(default: a file of the policy's name in the current folder)"
 
@@ -46,11 +48,8 @@ class Export(Imports):
         check_policy_names([self.policy])
         name, task = policy_and_task(None, self.policy, self.task, self.task_options)
         policy = policies.make_policy(name, task)
-        if not isinstance(policy, Network):
-            raise ValueError(
-                f"policy: expected best or a policy file (*{SUFFIX}), got {name}, which has no "
-                "weights to write"
-            )
+        if not isinstance(policy, Network) and (self.onnx or not isinstance(policy, Evolved)):
+            raise ValueError(_refusal(name, task, policy))
         suffix = ONNX_SUFFIX if self.onnx else SUFFIX
         registered = policies.is_registered(name)
         stem = name.replace(":", "-") + f"-{task.name}" if registered else _stem(name)
@@ -59,11 +58,24 @@ class Export(Imports):
         source = None if registered else policies.file_of(name)
         if source is not None and path.exists() and path.samefile(source):
             raise ValueError(f"out: expected another file than the policy's own, got {path}")
-        if self.onnx:
+        if self.onnx and isinstance(policy, Network):
             policy.save_onnx(path)
         else:
             policy.save(path)
         write(f"policy: {path} ({path.stat().st_size / 1024:.1f} KiB)")
+
+
+def _refusal(name: str, task: Task, policy: policies.Policy) -> str:
+    """Reason for which a policy cannot be written."""
+    if isinstance(policy, Evolved):
+        return (
+            f"onnx: expected a policy with a network, got {name} of {task.name}, a script with "
+            "learned tactics; without --onnx they are written as a policy file"
+        )
+    return (
+        f"policy: expected best or a policy file (*{SUFFIX}), got {name}, which has no weights to "
+        "write"
+    )
 
 
 def _stem(name: str) -> str:

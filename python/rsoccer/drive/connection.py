@@ -11,6 +11,7 @@ import numpy as np
 
 from rsoccer._core import SimConfig
 from rsoccer.arrays import Floats, Mask
+from rsoccer.bridge.settings import BLUE_ON_POSITIVE_HALF
 from rsoccer.drive.guard_process import GuardProcess
 from rsoccer.drive.limits import limited, stopped
 from rsoccer.drive.link import Link, SocketLink
@@ -77,7 +78,7 @@ class Connection:
         self._clock = clock
         self._peer = make_peer(settings)
         positive = settings.blue_on_positive_half
-        positive = settings.peer == "firasim" if positive is None else positive
+        positive = BLUE_ON_POSITIVE_HALF[settings.league] if positive is None else positive
         layout = make_layout(settings, config, positive=positive)
         self.officials = Officials(settings, rules, clock)
         self._reception = Reception(settings, layout, self._peer, self.officials, clock)

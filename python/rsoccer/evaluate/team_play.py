@@ -15,7 +15,7 @@ from rsoccer.play import Play
 from rsoccer.task import Task
 from rsoccer.vectors import norm
 
-MEASURES: Final = ("passes", "lost", "assists", "possession", "spread", "cover")
+MEASURES: Final = ("passes", "lost", "assists", "ball_share", "spread", "cover")
 """Names of the measures, in the order of tables."""
 RELEASE_GAP: Final = 0.05
 """Gap between a robot and the ball from which the ball has left it, m."""
@@ -36,7 +36,7 @@ class TeamPlayRecorder:
     | `passes` | passes that arrived | 1 |
     | `lost` | balls that went as far, but to an opponent | 1 |
     | `assists` | goals whose scorer had the ball from a teammate, without an opponent between | 1 |
-    | `possession` | share of the time with a last touch in which it was the team's | 1 |
+    | `ball_share` | share of the time with a last touch in which it was the team's | 1 |
     | `spread` | mean distance between two robots of the team | m |
     | `cover` | share of the own goal's mouth that robots of the team hide from the ball | 1 |
     """
@@ -96,7 +96,7 @@ class TeamPlayRecorder:
         batch.steps += playing
         touched = playing & (batch.last != NOBODY)
         batch.with_ball += touched
-        batch.totals["possession"] += touched & self._is_own(batch.last)
+        batch.totals["ball_share"] += touched & self._is_own(batch.last)
         batch.totals["spread"] += np.where(playing, _spread(robots, present), 0.0)
         cover = self._cover(frame.ball.position, robots, present)
         batch.totals["cover"] += np.where(playing, cover, 0.0)
@@ -177,7 +177,7 @@ class _Batch:
 
     def means(self) -> dict[str, Doubles]:
         """Counts of each match, and means over its steps."""
-        per = {"possession": self.with_ball, "spread": self.steps, "cover": self.steps}
+        per = {"ball_share": self.with_ball, "spread": self.steps, "cover": self.steps}
         return {
             name: total / np.maximum(per[name], 1.0) if name in per else total.copy()
             for name, total in self.totals.items()

@@ -167,7 +167,8 @@ def _controller_of(task: Task, group: PolicyGroup, given: Mapping[str, Any]) -> 
     if any(each != found[0] for each in found):
         robots = [task.robots[index] for index in group.robots]
         raise ValueError(
-            f"controllers: expected one policy for {robots}, which share one, got {found}"
+            f"controllers: expected one policy for {robots}, which share one, got {found}; begin "
+            "with policies that differ, such as 'scripted:0' for those that change"
         )
     first: PolicyLike | None = found[0]
     return first

@@ -45,8 +45,8 @@ if TYPE_CHECKING:
     from rsoccer.randomization import Ranges
     from rsoccer.sources import SensingSource
 
-FORMAT: Final = "rsoccer-tactics-1"
-"""Version of the format. A new number makes older readers refuse the file."""
+FORMAT: Final = policy_file.TACTICS_FORMAT
+"""Version of the format."""
 SCRIPTS: Final[Mapping[str, type[TacticalPolicy]]] = {"keep": Keep, "scripted": ScriptedSsl}
 """Scripts by the names that they have as policies."""
 _ARRAY: Final = "tactics"

@@ -90,6 +90,8 @@ ONNX_SUFFIX: Final = ".onnx"
 SUFFIXES: Final = (SUFFIX, ONNX_SUFFIX)
 """Ends of the names of files that play as policies."""
 
+TACTICS_FORMAT: Final = "rsoccer-tactics-1"
+"""Version of the files of `rsoccer.policies.evolved`. A new one makes older readers refuse them."""
 INSTALL_HINT: Final = "writing policy files needs safetensors: pip install 'rsoccer[train]'"
 
 
@@ -126,8 +128,11 @@ def read_metadata(metadata: Mapping[str, str]) -> tuple[np.float32, int]:
         ValueError: a missing or wrong value.
     """
     version = HEAD_FORMAT if {"head", "deviation"} & set(metadata) else FORMAT
-    if metadata.get("format") != version:
-        raise ValueError(f"metadata 'format' should be {version!r}, got {metadata.get('format')!r}")
+    got = metadata.get("format")
+    if got != version:
+        hint = ", learned tactics, which rsoccer.policies.evolved.Evolved.load reads"
+        hint = hint if got == TACTICS_FORMAT else ""
+        raise ValueError(f"metadata 'format' should be {version!r}, got {got!r}{hint}")
     if metadata.get("activation") not in ACTIVATIONS:
         raise ValueError(
             f"metadata 'activation' should be one of {tuple(ACTIVATIONS)}, "
