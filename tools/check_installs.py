@@ -55,7 +55,6 @@ INSTALLS: Final = {
         "from rsoccer import policies; best = policies.make_policy('best', 'VSS-v0'); "
         "best.save_onnx('best.onnx'); print(policies.make_policy('best.onnx', 'VSS-v0'))"
     ),
-    "'rsoccer[cli,network]'": Install("import sys, rsoccer.cli; rsoccer.cli.main(['serve', '-h'])"),
     '"stable-baselines3>=2.4"': Install("import rsoccer.sb3; rsoccer.sb3.SoccerVecEnv('VSS-v0')"),
     '"stable-baselines3>=2.4" safetensors': Install("stable_baselines3"),
     '"torchrl>=0.14"': Install("torchrl"),
