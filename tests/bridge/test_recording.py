@@ -10,6 +10,7 @@ import pytest
 from rsoccer import Sensing
 from rsoccer.bridge import recording
 from rsoccer.bridge.recording import record
+from rsoccer.bridge.server import MAX_HEARD
 from rsoccer.game import Command
 from rsoccer.protocols.logs import LogKind, read_log
 from rsoccer.protocols.schemas import simulation_pb2
@@ -66,6 +67,18 @@ def test_a_log_has_the_packets_of_a_referee_on_the_network(tmp_path: Path) -> No
             assert "referee" not in {datagram.port for datagram in sent}
     entries = [e for e in read_log(tmp_path / "match.log") if e.kind == LogKind.REFEREE]
     assert [entry.data for entry in entries] == [packet] * 20
+
+
+def test_packets_of_a_referee_do_not_pile_up() -> None:
+    wall = Wall(referee="external", speed=None)
+    packet = packet_of(Command.FORCE_START)
+    for _ in range(50):
+        wall.send("referee", packet)
+    assert not wall.server._heard, "nobody listens"
+    wall.server.listeners.append(lambda server, sent: None)
+    for _ in range(MAX_HEARD + 50):
+        wall.send("referee", packet)
+    assert len(wall.server._heard) == MAX_HEARD
 
 
 def test_what_cannot_be_recorded_is_refused(tmp_path: Path) -> None:

@@ -56,6 +56,7 @@ def test_a_match_is_served_and_recorded(
         (["--ports", "status_blue=0"], "ports: status_blue: expected at least 1, got 0"),
         (["--ports", "vision=0"], "ports: expected 1 to 65535 for vision, which is sent, got 0"),
         (["--robots", "0"], "robots: expected at least 1, got 0"),
+        (["--robots", "17"], "robots: expected at most 11, got 17"),
         (["--task-options", "n_blue=3"], "options: expected `robots` for the size of both teams"),
     ],
 )
@@ -94,6 +95,25 @@ def test_a_match_that_is_ended_by_a_signal_is_recorded(
     assert cli.main(["serve", "ssl", "--record", str(file), *ports(*SSL)]) == 0
     assert Replay.load(file).seconds > 0.05
     assert signal.getsignal(name) is before
+
+
+def test_a_signal_that_is_ignored_stays_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As under `nohup`, where a terminal that is closed ends nothing."""
+    ended = []
+
+    def run(self: SocketLoop, seconds: float | None = None) -> None:
+        signal.raise_signal(name)
+        ended.append(self._stopped)
+
+    name = ENDING[-1]
+    monkeypatch.setattr(SocketLoop, "run", run)
+    previous = signal.signal(name, signal.SIG_IGN)
+    try:
+        assert cli.main(["serve", "ssl", *ports(*SSL)]) == 0
+        assert signal.getsignal(name) is signal.SIG_IGN
+    finally:
+        signal.signal(name, previous)
+    assert ended == [False]
 
 
 def test_ports_and_groups_are_those_of_the_league_unless_given() -> None:

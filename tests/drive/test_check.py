@@ -145,9 +145,34 @@ def test_robots_that_the_task_does_not_have_take_space() -> None:
     robot = command.control.teleport_robot.add(x=1.2, y=1.5, orientation=0.0)
     robot.id.id, robot.id.team = 0, simulation_pb2.YELLOW
     link.server.receive("control", command.SerializeToString(), ("127.0.0.1", 5109), link.now)
-    with pytest.raises(ValueError, match=r"check: expected 0\.47 m of free field .*, got 0\.30 m"):
+    with pytest.raises(
+        ValueError, match=r"check: expected 0\.47 m of free .*, got 0\.30 m to yellow 0"
+    ):
         check_robot(connection, 0)
     assert not link.frame.robots.velocity[0, 5].round(3).any()
+
+
+def test_a_robot_whose_number_was_misread_takes_no_space() -> None:
+    link = ServerLink(referee="off")
+    connection = connected(SSL, link, "ssl-simulation", ids=(5,), patience=0.25)
+    real_poll, misread = link.poll, [True]
+
+    def poll(seconds: float) -> list[Received]:
+        found = []
+        for port, sent in real_poll(seconds):
+            data = sent
+            if port == "vision" and misread and connection.sight.frames > 3:
+                packet = vision_pb2.Packet.FromString(data)
+                for robot in packet.detection.robots_blue:
+                    robot.robot_id = 7 if robot.robot_id == 5 else robot.robot_id
+                data = packet.SerializeToString()
+                misread.clear()
+            found.append(Received(port, data))
+        return found
+
+    link.poll = poll  # type: ignore[method-assign]
+    assert check_robot(connection, 0).is_right
+    assert not misread
 
 
 @pytest.mark.parametrize(

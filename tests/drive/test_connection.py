@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from rsoccer import SimConfig
-from rsoccer.drive.connection import Connection
+from rsoccer.bridge.match_tasks import TICK
+from rsoccer.drive.connection import MAX_LATE_STEPS, Connection
 from rsoccer.drive.link import Received
 from rsoccer.drive.peers import Message
 from rsoccer.drive.settings import Limits, Settings
@@ -40,6 +41,23 @@ def speeds(messages: list[Message]) -> list[float]:
             locals_ = [each.move_command.local_velocity for each in control.robot_commands]
             found.append(max(float(np.hypot(each.forward, each.left)) for each in locals_))
     return found
+
+
+def wait(link: ServerLink, seconds: float) -> None:
+    """Let time pass in which nobody looks; what comes in then waits, and is read in batches."""
+    for _ in range(round(seconds / TICK)):
+        link.tick()
+    waiting, real_poll = link.poll(0.0), link.poll
+    assert waiting
+
+    def poll(seconds: float) -> list[Received]:
+        if waiting:
+            batch = waiting[:64]
+            del waiting[:64]
+            return batch
+        return real_poll(seconds)
+
+    link.poll = poll  # type: ignore[method-assign]
 
 
 def packet_of(command: Command, **numbers: object) -> bytes:
@@ -143,21 +161,8 @@ def test_a_program_that_was_late_goes_on_with_new_frames_alone() -> None:
     connection.on_event.append(events.append)
     connection.begin()
     advance(connection, 0.3)
-    for _ in range(600):  # three seconds, whose frames wait
-        link.tick()
-    sent, real_poll = len(link.messages), link.poll
-    waiting = link.poll(0.0)
-    assert len(waiting) > 100
-
-    def poll(seconds: float) -> list[Received]:
-        """Return a batch, as sockets do."""
-        if waiting:
-            batch = waiting[:64]
-            del waiting[:64]
-            return batch
-        return real_poll(seconds)
-
-    link.poll = poll  # type: ignore[method-assign]
+    sent = len(link.messages)
+    wait(link, 3.0)
     begun = link.now
     advance(connection, 0.025)
     assert set(speeds(link.messages[sent:])) == {0.0}, "the commands are old"
@@ -167,6 +172,38 @@ def test_a_program_that_was_late_goes_on_with_new_frames_alone() -> None:
     assert connection.counts["vision: late"] == 1
     advance(connection, 0.3)
     assert speeds(link.messages)[-1] == pytest.approx(1.0)
+
+
+def test_an_episode_begins_with_new_frames_after_a_pause() -> None:
+    link = ServerLink(referee="off")
+    connection = connected(CONFIG, link, "ssl-simulation")
+    connection.begin()
+    advance(connection, 0.3)
+    wait(link, 3.0)
+    connection.begin()
+    assert connection.sight.clock.now == pytest.approx(link.now - 100.0, abs=0.05)
+    sent = len(link.messages)
+    advance(connection, 0.1)
+    assert set(speeds(link.messages[sent:])) == {pytest.approx(1.0)}
+    assert not connection.counts["vision: late"]
+
+
+def test_a_program_that_is_always_late_is_told_so() -> None:
+    link = ServerLink(referee="off")
+    connection = connected(CONFIG, link, "ssl-simulation")
+    connection.begin()
+    for _ in range(MAX_LATE_STEPS - 1):
+        wait(link, 0.25)
+        advance(connection, 0.025)
+    advance(connection, 0.1)
+    for _ in range(MAX_LATE_STEPS - 1):
+        wait(link, 0.25)
+        advance(connection, 0.025)
+    wait(link, 0.25)
+    with pytest.raises(RuntimeError, match=r"vision_timeout: expected commands within 0\.2 s"):
+        advance(connection, 0.025)
+    patient = connected(CONFIG, ServerLink(referee="off"), "ssl-simulation", vision_timeout=1.0)
+    patient.begin()
 
 
 def test_robots_stop_when_the_frames_stand_still() -> None:

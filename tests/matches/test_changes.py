@@ -243,6 +243,24 @@ def test_copies_keep_groups_that_were_given_one_policy(given: str | Policy) -> N
     assert np.array_equal(first, second)
 
 
+def test_copies_keep_groups_that_got_one_object_in_two_changes() -> None:
+    different = {f"yellow_{nth}": f"scripted:0.{nth}" for nth in range(3)}
+    env = rsoccer.single_env("VSS-v0", controllers=different)
+    env.reset(seed=0)
+    policy = Seeing(0.3)
+    for robot in ("yellow_0", "yellow_1"):
+        env.matches.change_controllers({robot: policy})
+    other = copy.deepcopy(env)
+    env.step(np.zeros(2, np.float32))
+    other.step(np.zeros(2, np.float32))
+    assert np.array_equal(env.matches.play.actions, other.matches.play.actions)
+    policy.speed = -0.2
+    env.step(np.zeros(2, np.float32))
+    yellow = env.matches.play.actions[0, 3:5]
+    assert (yellow == yellow[0, 0]).all(), "both play the object that was given"
+    assert yellow[0, 0] < 0.0
+
+
 @dataclasses.dataclass(frozen=True)
 class LimitedByItsClass(Task):
     """A task whose time limit is no option."""
@@ -279,6 +297,24 @@ def test_a_time_limit_that_is_no_option_survives_a_change() -> None:
     assert matches.task.max_steps == 2
     assert [float(outcome.rewards[0, 0]) for outcome in outcomes] == [2.0, 2.0]
     assert [bool(outcome.truncated[0]) for outcome in outcomes] == [False, True]
+
+
+@dataclasses.dataclass(frozen=True)
+class LimitedByAnOption(LimitedByItsClass):
+    """A task whose time limit follows from an option."""
+
+    seconds: float = 1.0
+
+    @property
+    def max_steps(self) -> int:  # type: ignore[override]
+        return round(40 * self.seconds)
+
+
+def test_a_time_limit_follows_the_option_on_which_it_depends() -> None:
+    matches = Matches(LimitedByAnOption())
+    matches.reset()
+    matches.change_options(seconds=2.0)
+    assert matches.task.max_steps == 80
 
 
 def test_an_attached_recorder_sees_whole_episodes_beside_automatic_resets() -> None:

@@ -173,3 +173,12 @@ def test_two_kinds_of_activations_are_refused() -> None:
     modules = [nn.Linear(3, 2), nn.Tanh(), nn.Linear(2, 2), nn.ReLU(), nn.Linear(2, 2)]
     with pytest.raises(ValueError, match="expected one kind of activation, got relu, tanh"):
         Network.from_layers(make_task("VSS-v0"), modules)
+
+
+def test_options_that_a_task_no_longer_has_refuse_no_network() -> None:
+    task = make_task("VSS-v0")
+    network = network_for(task)
+    network.metadata["task_options"] = '{"option_of_yesterday": 1}'
+    network.check_fits(task, task.layout.size)
+    with pytest.raises(ValueError, match="it plays 'VSS-v0' with option_of_yesterday=1"):
+        network.check_fits(make_task("VSS-v0", n_blue=5, n_yellow=5), 100)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 from typing import Any, Final
 
+from rsoccer import checks
 from rsoccer._core import SimConfig
 from rsoccer.tasks.match import Match
 from rsoccer.tasks.ssl_match import SslMatch
@@ -71,7 +72,14 @@ def make_match(league: str, division: str, robots: int | None, **options: Any) -
         raise ValueError(f"league: expected one of {LEAGUES}, got {league!r}")
     if league == "vsss":
         size = 3 if robots is None else robots
+        checks.integer_in_range("robots", size, 1, _most_robots("vss_5v5"))
         field = "vss_5v5" if size > 3 else "vss_3v3"
         return TickedVssMatch(n_blue=size, n_yellow=size, field=field, **options)
     size = (11 if division == "A" else 6) if robots is None else robots
+    checks.integer_in_range("robots", size, 1, _most_robots("ssl_a"))
     return TickedSslMatch(division=division, n_blue=size, n_yellow=size, **options)
+
+
+def _most_robots(field: str) -> int:
+    """Greatest number of robots of a team on a field."""
+    return SimConfig(field, 0, 0).field.max_robots

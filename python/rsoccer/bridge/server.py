@@ -6,6 +6,7 @@ time.
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Iterator
 from typing import Final
 
@@ -22,6 +23,8 @@ from rsoccer.protocols.layout import TEAM_NAMES
 
 MAX_TICKS: Final = 50
 """Ticks in one call, so that messages are read in between."""
+MAX_HEARD: Final = 1000
+"""Packets of a referee on the network that are kept for the listeners between two ticks."""
 
 
 class Server:
@@ -30,8 +33,8 @@ class Server:
     Attributes:
         session: the match and its clients.
         ports: the ports of the league.
-        listeners: called after each tick with what is sent, and before it with what a referee on
-            the network has sent meanwhile.
+        listeners: called after each tick with what a referee on the network has sent since the
+            last one, and then what is sent here.
         is_local: whether only a referee on this machine is heard; `SocketLoop` sets it.
     """
 
@@ -65,7 +68,8 @@ class Server:
         self._referee = ExternalReferee(self.session) if settings.referee == "external" else None
         self.is_local = False
         self.listeners: list[Callable[[Server, list[Datagram]], None]] = []
-        self._heard: list[Datagram] = []  # from the referee on the network, since the last tick
+        # From the referee on the network, since the last tick.
+        self._heard: deque[Datagram] = deque(maxlen=MAX_HEARD)
         self._waits = False
         self._awaited = AwaitedAnswers(self.session.teams, settings.client_timeout)
         self._has_had = [False, False]
@@ -101,7 +105,8 @@ class Server:
         try:
             if port == "referee" and self._referee is not None:
                 self._referee.receive(data)
-                self._heard.append(Datagram("referee", data))
+                if self.listeners:
+                    self._heard.append(Datagram("referee", data))
                 return []
             return self.ports.receive(port, data, address, now)
         except MessageError as error:
@@ -166,9 +171,11 @@ class Server:
         for datagram in ports.officials.datagrams():
             sent.append(datagram)
             yield datagram
-        heard, self._heard = self._heard, []
-        for listener in self.listeners:
-            listener(self, heard + sent)
+        if self.listeners:
+            heard = [*self._heard, *sent]
+            self._heard.clear()
+            for listener in self.listeners:
+                listener(self, heard)
 
     # -- As fast as clients answer ---------------------------------------------------------------
 

@@ -90,7 +90,8 @@ class Drive(Imports):
     vision_timeout: Annotated[
         float | None, arg(help_behavior_hint="(default: 0.2, or 5 with --synchronous)")
     ] = None
-    """time without a frame after which robots stop, seconds"""
+    """time without a frame after which robots stop, seconds, also where the policy computes for
+    longer"""
     patience: float = 10.0
     """time without what is needed to go on until the command gives up, seconds"""
     seconds: Annotated[float, arg(help_behavior_hint="(default: until Ctrl-C)")] = math.inf

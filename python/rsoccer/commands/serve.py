@@ -115,8 +115,10 @@ class Serve(Imports):
             loop = stack.enter_context(SocketLoop(server, network))
             self._announce(loop, network)
             for name in ENDING:
-                previous = signal.signal(name, lambda *_: loop.stop())
-                stack.callback(signal.signal, name, previous)
+                previous = signal.getsignal(name)
+                if previous is not signal.SIG_IGN:  # as `nohup` has it
+                    signal.signal(name, lambda *_: loop.stop())
+                    stack.callback(signal.signal, name, previous)
             try:
                 loop.run(None if math.isinf(self.seconds) else self.seconds)
             except KeyboardInterrupt:

@@ -9,10 +9,11 @@ from typing import Final
 import numpy as np
 
 from rsoccer._core import BALL_COLUMNS, ROBOT_COLUMNS, RobotModel
-from rsoccer.arrays import Doubles, Floats
+from rsoccer.arrays import Array, Doubles, Floats
 from rsoccer.drive.connection import Connection
 from rsoccer.drive.delay import Recording, fitted_delay
 from rsoccer.protocols.commands import CommandRow
+from rsoccer.protocols.layout import TEAM_NAMES
 
 SPEED: Final = 0.4
 """Speed of the movements, m/s."""
@@ -116,15 +117,9 @@ def check_robot(connection: Connection, slot: int) -> CheckedRobot:
             raise ValueError(
                 f"limits: {name}: expected {needed:g} {unit} or more for the check, got {limit:g}"
             )
-    team, number = connection.layout.identity(slot)
-    sight = connection.sight
-    seen = sight.frames
-    connection.stand(
-        lambda: sight.frames > seen and bool(sight.in_sight[slot]), f"robot {number} in sight"
-    )
-    until = sight.clock.now + LOOK
-    connection.stand(lambda: sight.clock.now >= until, "frames")  # of all cameras
-    if connection.officials.restrains(connection.layout.exchanged(team)):
+    _look(connection, slot)
+    team = connection.layout.exchanged(connection.layout.identity(slot)[0])
+    if connection.officials.restrains(team):
         raise ValueError(
             "check: expected a referee that lets the robot drive anywhere, or "
             f"`--referee ignore`, got {connection.officials.words}"
@@ -148,6 +143,18 @@ def check_robot(connection: Connection, slot: int) -> CheckedRobot:
     return CheckedRobot((float(place[0]), float(place[1])), tuple(movements), delay, gain)
 
 
+def _look(connection: Connection, slot: int) -> None:
+    """Wait until the robot is in sight and all cameras have sent frames."""
+    sight, words = connection.sight, _words(connection.layout.identity(slot))
+    seen = sight.frames
+    connection.stand(
+        lambda: sight.frames > seen and bool(sight.in_sight[slot]), f"{words} in sight"
+    )
+    until = sight.clock.now + LOOK
+    while (now := sight.clock.now) < until:
+        connection.stand(lambda now=now: sight.clock.now > now, "a frame")  # type: ignore[misc]
+
+
 def _read(connection: Connection) -> Floats:
     row = np.empty((1, connection.config.row_size), np.float32)
     connection.sight.read(row)
@@ -162,23 +169,35 @@ def _place(row: Floats, slot: int) -> Floats:
 
 
 def _check_space(connection: Connection, row: Floats, slot: int) -> None:
-    field, place = connection.config.field, _place(row, slot)
-    to_lines = min(field.length / 2 - abs(place[0]), field.width / 2 - abs(place[1]))
-    others = [row[0, :2]] if connection.sight.has_ball else []
-    others += [
-        _place(row, other)[:2]
-        for other in range(connection.config.n_robots)
-        if other != slot and connection.sight.in_sight[other]
-    ]
-    others += list(connection.sight.stranger_places)
-    nearest = min((float(np.hypot(*(place[:2] - other))) for other in others), default=math.inf)
-    free = min(to_lines, nearest)
-    needed = SPEED * SECONDS + 2 * reach(connection.config.robots[slot]) + MARGIN
-    if free < needed:
+    field, place, sight = connection.config.field, _place(row, slot), connection.sight
+    own = reach(connection.config.robots[slot])
+
+    def distance(other: Array) -> float:
+        return float(np.hypot(*(place[:2] - other)))
+
+    free = {"a line": min(field.length / 2 - abs(place[0]), field.width / 2 - abs(place[1]))}
+    if sight.has_ball:
+        free["the ball"] = distance(row[0, :2])
+    for other in range(connection.config.n_robots):
+        if other != slot and sight.in_sight[other]:
+            free[_words(connection.layout.identity(other))] = distance(_place(row, other)[:2])
+    for identity, where in zip(sight.strangers, sight.stranger_places, strict=True):
+        # One on the robot itself is the robot, whose number a camera has misread.
+        if (gap := distance(where)) > own:
+            free[_words(identity)] = gap
+    nearest = min(free, key=lambda name: free[name])
+    needed = SPEED * SECONDS + 2 * own + MARGIN
+    if free[nearest] < needed:
         raise ValueError(
-            f"check: expected {needed:.2f} m of free field around the robot, got {free:.2f} m at "
-            f"({place[0]:.2f}, {place[1]:.2f})"
+            f"check: expected {needed:.2f} m of free field around the robot, got "
+            f"{free[nearest]:.2f} m to {nearest} at ({place[0]:.2f}, {place[1]:.2f})"
         )
+
+
+def _words(identity: tuple[int, int]) -> str:
+    """Words for a robot on the wire, such as "yellow 3"."""
+    team, number = identity
+    return f"{TEAM_NAMES[team]} {number}"
 
 
 def reach(model: RobotModel) -> float:
@@ -238,7 +257,7 @@ def describe(connection: Connection, found: CheckedRobot, slot: int) -> str:
     """
     layout = connection.layout
     team, number = layout.identity(slot)
-    color = ("blue", "yellow")[team]
+    color = TEAM_NAMES[team]
     side = "-x" if layout.sign > 0 else "+x"
     x, y = layout.rotated(np.array(found.position)).tolist()
     lines = [

@@ -30,6 +30,8 @@ MAX_AGE: Final = 0.1
 """Time since the last frame up to which time goes on without one, s."""
 MAX_BATCHES: Final = 1000
 """Batches of datagrams that are taken in at once after a pause; a flood does not end."""
+MAX_LATE_STEPS: Final = 20
+"""Steps in a row in which a program may be late, so that none of its commands is sent."""
 END_MESSAGES: Final = 5
 """Messages that stop the robots at the end: one may be lost."""
 
@@ -90,6 +92,7 @@ class Connection:
         shape = (config.n_robots, len(config.command_columns))
         self._stopped: Floats = np.zeros(shape, np.float32)
         self._is_closed = False
+        self._late_steps = 0
         self._sent_at = self._taken_at = clock()
         self._now = 0.0
         stops = self._messages(self._stopped)  # raises for robots that the peer cannot have
@@ -144,11 +147,15 @@ class Connection:
 
         Raises:
             ConnectionError: there are no frames for `patience`.
-            RuntimeError: the simulator refuses all commands, or the guard has ended.
+            RuntimeError: the simulator refuses all commands, the guard has ended, or this program
+                is late in `MAX_LATE_STEPS` calls in a row.
         """
         if self._slept():
-            self._catch_up()
+            self._count_lateness()
+            before = self.sight.clock.now
+            self.stand(lambda: self.sight.clock.now > before, "a frame")
             return
+        self._late_steps = 0
         self._send(commands)
         self._pump(commands, lambda: self.sight.clock.now >= until, "a frame")
 
@@ -164,6 +171,8 @@ class Connection:
             RuntimeError: the simulator refuses all commands, or the guard has ended.
         """
         self._send(None)
+        if self._slept():
+            self._drain()
         self._pump(None, is_done, wanted, stands=True)
 
     def begin(self, *, needs_all: bool = True) -> None:
@@ -240,20 +249,28 @@ class Connection:
             return False
         return self._clock() - self._taken_at > self.settings.seconds_to_stop
 
-    def _catch_up(self) -> None:
-        """Take in what has come meanwhile, and let robots stand until the next newer frame."""
-        source = self.settings.source
+    def _count_lateness(self) -> None:
+        """Count a step in which this program was late, and give up if it always is."""
+        source, seconds = self.settings.source, self.settings.seconds_to_stop
         self.counts[f"{source}: late"] += 1
         self.tell(f"{source}: this program was late, robots stop")
-        self._send(None)
+        self._late_steps += 1
+        if self._late_steps >= MAX_LATE_STEPS:
+            raise RuntimeError(
+                f"vision_timeout: expected commands within {seconds:g} s of a frame, but this "
+                f"program took longer in {self._late_steps} steps in a row, so that its robots "
+                "never drive; give it more time, or let it compute less in a step"
+            )
+
+    def _drain(self) -> None:
+        """Take in what has come while nobody looked, so that the next frame is one of now."""
         for _ in range(MAX_BATCHES):
             received = self._link.poll(0.0)
             for port, data in received:
                 self._reception.take(port, data)
             if not received:
                 break
-        before = self.sight.clock.now
-        self.stand(lambda: self.sight.clock.now > before, "a frame")
+        self._taken_at = self._clock()
 
     def _pump(
         self,

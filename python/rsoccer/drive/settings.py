@@ -85,8 +85,8 @@ class Settings:
         limits: greatest speeds.
         is_synchronous: whether the simulator waits for commands after each frame, as
             `rsoccer serve --speed max` does. Then no time passes but that of its frames.
-        vision_timeout: time without a frame after which robots stop, s; None for 0.2, and 5 with a
-            simulator that waits.
+        vision_timeout: time without a frame after which robots stop, s, also where this program
+            has not looked for one; None for 0.2, and 5 with a simulator that waits.
         patience: time without what is needed to go on until a connection gives up, s.
         rate: rate at which commands are repeated while no frames come, Hz. With each frame they are
             sent again anyway.

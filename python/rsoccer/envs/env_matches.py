@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import secrets
 from collections.abc import Mapping
 from contextlib import closing
@@ -176,9 +177,17 @@ class SingleLearner(PublicMatches):
 
 
 def _policies_by_robot(matches: Matches) -> dict[str, Policy]:
-    """Policies of all robots that do not learn."""
-    robots = matches.task.robots
-    return {robots[i]: group.policy for group in matches.assignment.groups for i in group.robots}
+    """Policies of all robots that do not learn, an object for each group.
+
+    Robots that share an object are one group in new matches, but groups stay apart if their
+    policies have been changed to one: each has its own streams and memory.
+    """
+    robots, used, policies = matches.task.robots, set[int](), dict[str, Policy]()
+    for group in matches.assignment.groups:
+        policy = copy.copy(group.policy) if id(group.policy) in used else group.policy
+        used.add(id(policy))
+        policies |= {robots[robot]: policy for robot in group.robots}
+    return policies
 
 
 def random_seed(env: Any) -> int:  # noqa: ANN401  (gymnasium.Env or VectorEnv)

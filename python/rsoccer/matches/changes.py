@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import dataclasses
 from collections.abc import Mapping
 from typing import Any, Final
@@ -43,10 +42,11 @@ def changed_task(task: Task, options: Mapping[str, Any]) -> Task:
     known = options_of(task)
     if known is None:
         replaced: Any = task
-        changed: Task = dataclasses.replace(replaced, **options)
+        unchanged, changed = (dataclasses.replace(replaced, **each) for each in ({}, options))
     else:
+        unchanged = make_task(task.name, **known)
         changed = make_task(task.name, **{**known, **options})
-    if "max_steps" not in names and changed.max_steps != task.max_steps:  # an argument of matches
+    if "max_steps" not in names and unchanged.max_steps != task.max_steps:  # an argument of matches
         changed = with_max_steps(changed, task.max_steps, "max_steps")
     for name, what in _differences(task, changed).items():
         raise ValueError(
@@ -181,16 +181,11 @@ def _policy(
     made: dict[int | str, Any],
     observes: bool,
 ) -> Any:  # noqa: ANN401
-    """A new policy for a group, whose robots observe or not.
-
-    Groups with equal controllers get copies of one policy: robots that share an object are one
-    group in matches that are made from the same controllers, as copies are.
-    """
+    """A new policy for a group, whose robots observe or not; one object for equal controllers."""
     key = controller if isinstance(controller, str) else id(controller)
-    if key in made:
-        policy = copy.copy(made[key])
-    else:
-        policy = made[key] = make_policy(controller, task)
+    if key not in made:
+        made[key] = make_policy(controller, task)
+    policy = made[key]
     if policy.observes != "nothing" and not observes:
         raise ValueError(
             f"controllers: expected a policy that observes nothing, as "

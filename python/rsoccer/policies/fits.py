@@ -19,7 +19,7 @@ def check_fits(
     history: int,
     task: Task,
     observation_size: int,
-    plays: str = "",
+    trained: tuple[str, Mapping[str, Any]] | None = None,
 ) -> None:
     """Check that a network can play a task.
 
@@ -30,7 +30,7 @@ def check_fits(
         history: observations in a stacked one.
         task: the task to be played.
         observation_size: numbers in one robot's plain observation.
-        plays: what the network plays instead, from `what_it_plays`.
+        trained: name and options of the task that it was trained on; None if they are not known.
 
     Raises:
         ValueError: the task has other observations or actions.
@@ -43,32 +43,28 @@ def check_fits(
         if size != wanted[name]:
             raise ValueError(
                 f"{network} has {name} {size}, but task {task.name!r}{stacking} has "
-                f"{wanted[name]}{plays}: {known}the observations of the task are "
-                f"{task.layout.text}"
+                f"{wanted[name]}{_what_it_plays(trained, task)}: {known}the observations of the "
+                f"task are {task.layout.text}"
             )
     if layout not in (None, task.layout.text):
         raise ValueError(
             f"{network} observes {layout}, "
-            f"but the observations of task {task.name!r} are {task.layout.text}{plays}"
+            f"but the observations of task {task.name!r} are {task.layout.text}"
+            f"{_what_it_plays(trained, task)}"
         )
 
 
-def what_it_plays(name: str, options: Mapping[str, Any], task: Task) -> str:
-    """Return words for the task that a network plays, where it does not fit another one.
-
-    Args:
-        name: name of the task that it was trained on.
-        options: options of that task that differ from the defaults.
-        task: the task that it does not fit.
-    """
-    if name not in list_tasks():
+def _what_it_plays(trained: tuple[str, Mapping[str, Any]] | None, task: Task) -> str:
+    """Words for the task that a network plays, where it does not fit `task`."""
+    if trained is None or trained[0] not in list_tasks():
         return ""
+    name, options = trained
     given = options_of(task) if task.name == name else None
     if given is None:
         shown = dict(options)
     else:  # the options that differ, with the values of the training
         usual = make_task(name)
         differing = [key for key in {**given, **options} if given.get(key) != options.get(key)]
-        shown = {key: options.get(key, getattr(usual, key)) for key in differing}
+        shown = {key: options[key] if key in options else getattr(usual, key) for key in differing}
     words = ", ".join(f"{key}={value!r}" for key, value in shown.items())
     return f"; it plays {name!r}" + (f" with {words}" if words else "")

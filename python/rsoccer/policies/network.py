@@ -15,7 +15,7 @@ from rsoccer import checks, option_values
 from rsoccer.arrays import Array, Floats
 from rsoccer.policies import policy_file, training_conditions
 from rsoccer.policies.activations import activation as activation_of
-from rsoccer.policies.fits import check_fits, what_it_plays
+from rsoccer.policies.fits import check_fits
 from rsoccer.policies.heads import CHOOSING, Deviation
 from rsoccer.policies.held_actions import HeldActions
 from rsoccer.policies.layers import read_layers
@@ -300,7 +300,7 @@ class Network(HeldActions):
             self.history,
             task,
             observation_size,
-            what_it_plays(self.task_name, self.task_options, task),
+            (self.task_name, self.task_options),
         )
 
     def arrays(self) -> dict[str, NDArray[np.float32]]:

@@ -170,7 +170,8 @@ class OnnxPolicy(HeldActions):
         source = f"a network trained on {self.task_name!r}" if self._own else "the ONNX model"
         sizes = {"observation_size": self.observation_size, "action_size": self.action_size}
         layout = self.metadata.get("layout") if self._own else None
-        check_fits(source, sizes, layout, self.history, task, observation_size)
+        trained = (self.task_name, self.task_options) if self._own and self.task_name else None
+        check_fits(source, sizes, layout, self.history, task, observation_size, trained)
 
     @property
     def _head(self) -> str:

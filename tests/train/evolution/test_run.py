@@ -47,6 +47,22 @@ def test_a_policy_and_a_log_are_written(tmp_path: Path) -> None:
     assert found.matches == 2
 
 
+def test_wrong_numbers_are_refused_before_anything_is_written(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match=r"randomization: expected one of .*, got 'robot.mas'"):
+        evolve(args(tmp_path / "run", randomization={"robot.mas": [0.9, 1.1]}))
+    assert not (tmp_path / "run").exists()
+
+
+def test_a_run_that_is_older_than_a_setting_goes_on(tmp_path: Path) -> None:
+    evolve(args(tmp_path / "run", generations=1))
+    path = tmp_path / "run" / run.STATE_FILE
+    saved = json.loads(path.read_text())
+    del saved["settings"]["randomization"]
+    path.write_text(json.dumps(saved))
+    evolve(args(tmp_path / "run", resume=True))
+    assert len(rows(tmp_path / "run")) == 2
+
+
 def test_a_run_that_goes_on_is_the_same_as_one_without_a_stop(tmp_path: Path) -> None:
     whole = evolve(args(tmp_path / "whole", step_size=20.0, opponents=("scripted:0.3",)))
     parts = args(tmp_path / "parts", step_size=20.0, opponents=("scripted:0.3",), generations=1)

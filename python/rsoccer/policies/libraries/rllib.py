@@ -9,7 +9,7 @@ import numpy as np
 from rsoccer.policies.heads import Deviation
 from rsoccer.policies.libraries.parts import NO_CLIP, Actor, Normalization, task_of
 from rsoccer.policies.network import Network
-from rsoccer.registry import list_options, make_task
+from rsoccer.registry import list_aliases, list_options, make_task, task_class
 from rsoccer.task import Task
 
 _HEADS: Final = {
@@ -68,7 +68,8 @@ def _task(task: Task | str | None, config: Any) -> Task:  # noqa: ANN401
         return task_of(task, None)
     if isinstance(named, Task):
         return named
-    names = list_options(type(make_task(named)))  # also of an alias
+    registered, _ = list_aliases().get(named, (named, {}))
+    names = list_options(task_class(registered))
     return make_task(named, **{name: settings[name] for name in names if name in settings})
 
 

@@ -15,10 +15,13 @@ from rsoccer.arrays import Doubles, Floats
 from rsoccer.evaluate.episodes import EpisodeRunner
 from rsoccer.files import write_atomically
 from rsoccer.lineup import lineup
+from rsoccer.matches.sensing import simulated
 from rsoccer.policies import make_policy
 from rsoccer.policies.evolved import SCRIPTS, Evolved
 from rsoccer.policies.trained import list_trained, load_file
+from rsoccer.randomization import Randomization
 from rsoccer.registry import task_with_options
+from rsoccer.sources import make_sensing
 from rsoccer.task import LEARN, Task
 from rsoccer.train.args import SETTINGS_FILE
 from rsoccer.train.evolution.settings import EvolveArgs
@@ -53,6 +56,7 @@ def run_evolution(args: EvolveArgs) -> Path:
     task = task_with_options(args.task, args.task_options)
     strategy = _strategy(args, None if args.resume else _first(args, task))
     kinds = _kinds(args, task)
+    Randomization.of(args.randomization, task.config, simulated(make_sensing(args.sensing)))
     policy = _policy(args, task, strategy)
     policy_files = digests_of(task, args.opponents)
     if args.resume and not (args.out / STATE_FILE).exists():
@@ -151,10 +155,11 @@ def _resume(args: EvolveArgs, strategy: Strategy, policy_files: dict[str, str]) 
     path = args.out / STATE_FILE
     saved = json.loads(path.read_text())
     now = args.to_json()
+    before = {**EvolveArgs(args.task).to_json(), **saved["settings"]}  # some may be newer than it
     changed = [
-        f"{name} was {saved['settings'].get(name)!r}, is {now[name]!r}"
+        f"{name} was {before[name]!r}, is {now[name]!r}"
         for name in now
-        if name not in _CHANGEABLE and saved["settings"].get(name) != now[name]
+        if name not in _CHANGEABLE and before[name] != now[name]
     ]
     if changed:
         raise ValueError(f"resume: {path} is of a run with other settings: {'; '.join(changed)}")
