@@ -99,7 +99,7 @@ def test_a_match_that_is_ended_by_a_signal_is_recorded(
 
 def test_a_signal_that_is_ignored_stays_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """As under `nohup`, where a terminal that is closed ends nothing."""
-    ended = []
+    ended: list[bool] = []
 
     def run(self: SocketLoop, seconds: float | None = None) -> None:
         signal.raise_signal(name)

@@ -42,7 +42,8 @@ def changed_task(task: Task, options: Mapping[str, Any]) -> Task:
     known = options_of(task)
     if known is None:
         replaced: Any = task
-        unchanged, changed = (dataclasses.replace(replaced, **each) for each in ({}, options))
+        unchanged: Task = dataclasses.replace(replaced)
+        changed: Task = dataclasses.replace(replaced, **options)
     else:
         unchanged = make_task(task.name, **known)
         changed = make_task(task.name, **{**known, **options})
