@@ -1,10 +1,15 @@
 import importlib
+from dataclasses import dataclass
 from pathlib import Path
 
+import gymnasium
+import numpy as np
 import pytest
 
 import rsoccer
 from rsoccer import registry
+from rsoccer.arrays import Floats
+from rsoccer.play import Play
 from rsoccer.registry import names as registry_names
 from rsoccer.task import Task
 from rsoccer.tasks import VssMulti, VssSelfPlay
@@ -31,6 +36,28 @@ def test_every_task_of_the_package_is_registered() -> None:
     registered = {type(rsoccer.make_task(name)) for name in rsoccer.list_tasks()}
     assert found - bases <= registered
     assert len(found - bases) >= 2
+
+
+@dataclass(frozen=True)
+class Counting(VssSelfPlay):
+    """A task whose observation depends on its time limit."""
+
+    def frame_to_observations(self, play: Play) -> dict[str, Floats]:
+        left = 1.0 - play.steps / self.max_steps
+        shape = (len(left), len(play.observers), 1)
+        return {"left": np.broadcast_to(left[:, None, None], shape).astype(np.float32)}
+
+
+def test_a_time_limit_is_that_of_the_observations_too() -> None:
+    task = Counting()
+    assert task.layout.size == 1  # which is kept
+    matches = rsoccer.Matches(task, max_steps=4)
+    matches.reset()
+    for _ in range(4):
+        outcome = matches.step(np.zeros((1, 6, 2), np.float32))
+    assert outcome.truncated[0]
+    assert (outcome.final_observations == 0.0).all()
+    assert task.max_steps == 1200
 
 
 def test_options_are_the_fields_of_a_task() -> None:
@@ -105,6 +132,20 @@ def test_a_task_need_not_be_a_dataclass() -> None:
 
     rsoccer.register("Plain-v0", Plain)
     assert rsoccer.make_task("Plain-v0", speed=0.3).max_steps == 1200
+
+
+def test_a_task_that_is_defined_anew_replaces_the_former() -> None:
+    """As in a cell of a notebook that runs again."""
+    made: dict[str, type[Task]] = {}
+    cell = "class Again(VssSelfPlay):\n    text = {text!r}\n"
+    for text in ("first", "second"):
+        space = {"VssSelfPlay": VssSelfPlay, "__name__": "__main__"}
+        exec(cell.format(text=text), space)
+        made[text] = space["Again"]  # type: ignore[assignment]
+        rsoccer.register("Again-v0", made[text])
+        assert type(rsoccer.make_task("Again-v0")) is made[text]
+    assert made["first"] is not made["second"]
+    assert gymnasium.make("rsoccer/Again-v0", learner="blue_0").unwrapped is not None
 
 
 def test_a_name_belongs_to_one_task() -> None:

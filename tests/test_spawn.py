@@ -4,6 +4,7 @@ import pytest
 from rsoccer import SimConfig, Simulator, spawn
 from rsoccer._core import RobotModel
 from rsoccer.frame import Frame
+from rsoccer.registry import make_task
 from rsoccer.rng import WorldRng
 from tests.helpers import same
 
@@ -100,3 +101,11 @@ def test_robots_of_different_sizes_start_apart() -> None:
     Simulator(config, n).place(np.ones(n, np.bool_), frame.rows, rows)
     gaps = np.linalg.norm(frame.robots.position[:, 0] - frame.robots.position[:, 2], axis=-1)
     assert 0.4 <= gaps.min() < 0.5
+
+
+def test_discs_that_leave_no_room_are_drawn_anew() -> None:
+    """Eleven discs in a square: some first draws have no place for the last ones."""
+    task = make_task("SSLKeepaway-v0", n_keepers=6, n_takers=5, area_length=2.5, area_width=2.5)
+    frame = task.get_initial_positions_frame(WorldRng.seeded(0, 2000))
+    alone = task.get_initial_positions_frame(WorldRng.seeded(1234, 1))
+    assert np.array_equal(frame.rows[1234], alone.rows[0])

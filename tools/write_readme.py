@@ -29,6 +29,7 @@ from rsoccer import policies
 from rsoccer.policies import trained
 from rsoccer.policies.evolved import is_tactics
 from rsoccer.policies.policy_file import read_file
+from rsoccer.registry import make_task
 from rsoccer.tasks import legacy_names
 from tools import leaderboard, referee_scenes, referee_tables, senses_tables, soak_matches
 from tools.library_speed import libraries
@@ -233,7 +234,10 @@ def old_names() -> str:
 def _libraries(name: str) -> str:
     """Libraries that have an id of this name."""
     known = {"Gymnasium": [*gymnasium.registry], "PettingZoo": [*pettingzoo.parallel_registry]}
-    return ", ".join(library for library in known if f"rsoccer/{name}" in known[library])
+    found = [library for library in known if f"rsoccer/{name}" in known[library]]
+    if "Gymnasium" in found and len(make_task(name).agents) > 1:
+        found[found.index("Gymnasium")] = "Gymnasium with `learner`"
+    return ", ".join(found)
 
 
 def new_task() -> str:

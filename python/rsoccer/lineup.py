@@ -11,6 +11,7 @@ from rsoccer.task import LEARN, Learn, Task
 from rsoccer.tasks.match import Match
 from rsoccer.tasks.ssl_keepaway import SslKeepaway
 from rsoccer.tasks.ssl_pass import SslPass
+from rsoccer.view import SIDES
 
 DEFAULT_TASK: Final = "VSSSelfPlay-v0"
 """Task for policies that were not trained on one."""
@@ -26,13 +27,15 @@ TAKER_SCRIPT: Final = "take"
 """Script of the other team there."""
 
 
-def script_of(task: Task) -> str:
+def script_of(task: Task, team: str | None = None) -> str:
     """Return the name of the script that plays in the place of a task's learners.
 
     Args:
         task: the task that is played.
+        team: "blue" or "yellow", the team in which it plays; None for that of the first learner.
     """
-    if isinstance(task, SslKeepaway) and task.learners == "takers":
+    takes = task.learners == "takers" if isinstance(task, SslKeepaway) else False
+    if isinstance(task, SslKeepaway) and (takes if team is None else team == SIDES[1]):
         return TAKER_SCRIPT
     if isinstance(task, SslKeepaway | SslPass):
         return KEEPER_SCRIPT

@@ -11,7 +11,7 @@ import numpy as np
 
 from rsoccer import _core
 from rsoccer._core import Field, Potential, SimConfig, mean_action_magnitude
-from rsoccer.arrays import Floats, Mask
+from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.game import BLUE, NOBODY, YELLOW, EventKind
 from rsoccer.task import Play
 
@@ -33,6 +33,20 @@ def goal(play: Play) -> Floats:
     goals = play.events.by_team(EventKind.GOAL)
     balance = (goals - goals[:, ::-1]).astype(np.float32)
     return balance[:, play.viewpoint.teams]
+
+
+def of_blue(play: Play, values: Array) -> Floats:
+    """Return what is good for blue, as each observer's team takes it: for yellow it is bad.
+
+    Args:
+        play: state of n worlds.
+        values: (n,) numbers or a mask.
+
+    Returns:
+        (n, observers): the values for robots of blue, their negatives for those of yellow.
+    """
+    signs = np.where(np.equal(play.viewpoint.teams, BLUE), np.float32(1.0), np.float32(-1.0))
+    return np.asarray(values, np.float32)[:, None] * signs
 
 
 def events_of_team(play: Play, kinds: Collection[int]) -> Floats:

@@ -19,6 +19,8 @@ Box = tuple[Sequence[float] | Floats, Sequence[float] | Floats]
 
 MAX_DRAWS: Final = 1000
 """Draws per world before the search for positions fails."""
+FRESH_DRAWS: Final = 50
+"""Draws after which all discs of a world are drawn anew, and not only those that are rejected."""
 MARGIN: Final = 1e-3
 """Meters added to each radius, for differences in rounding between float32 and the simulator."""
 
@@ -157,16 +159,22 @@ def _rejection_sample(
     forbidden: Callable[[Floats], Mask],
     region: str,
 ) -> Floats:
-    """Positions (n, discs, 2) in boxes (discs, 2), redrawn until none is rejected."""
+    """Positions (n, discs, 2) in boxes (discs, 2), redrawn until none is rejected.
+
+    A world draws in each turn in which one of its discs is rejected, so its positions follow from
+    its own stream alone.
+    """
     radius = np.asarray(radii, np.float32) + np.float32(MARGIN)
     distances = np.maximum(radius[:, None] + radius, np.float32(min_distance))
     distances = np.tril(distances, -1)  # of two discs that are too close, the later is redrawn
     drawn = _uniform(rng, box)
-    for _ in range(MAX_DRAWS):
+    for draw in range(1, MAX_DRAWS + 1):
         rejected = _too_close(drawn, distances) | forbidden(drawn)
         worlds = np.flatnonzero(rejected.any(axis=1))
         if not len(worlds):
             return drawn
+        if draw % FRESH_DRAWS == 0:  # the earlier discs may leave no room for the later ones
+            rejected[worlds] = True
         streams = rng[worlds]
         drawn[worlds] = np.where(rejected[worlds, :, None], _uniform(streams, box), drawn[worlds])
         rng.put(worlds, streams)

@@ -74,6 +74,20 @@ def test_a_measurement_goes_on_where_it_stopped(tmp_path: Path) -> None:
     assert [(row.score, row.low, row.seconds) for row in resumed.tasks[TASK]] == scores
 
 
+def test_what_refused_a_task_is_tried_again() -> None:
+    whole = measure()
+    begun = dataclasses.replace(whole, tasks={}).without(TASK, "OSError: a disk was full")
+    resumed = measure(begun=begun)
+    assert not resumed.refused
+    assert [row.score for row in resumed.tasks[TASK]] == [row.score for row in whole.tasks[TASK]]
+
+
+def test_an_entry_of_another_machine_does_not_go_on() -> None:
+    begun = dataclasses.replace(measure(), machine={"processor": "another one"})
+    with pytest.raises(ValueError, match="begun: expected an entry whose machine is"):
+        measure(begun=begun)
+
+
 def test_an_entry_of_another_protocol_or_policy_does_not_go_on() -> None:
     begun = measure()
     with pytest.raises(ValueError, match="begun: expected an entry whose matches is 22, got 20"):

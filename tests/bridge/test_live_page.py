@@ -109,3 +109,11 @@ def test_the_page_shows_robots_that_were_exchanged() -> None:
             wall.tick(5)
     kinds = [re.findall(r'"robots": ?\[([0-9, ]+)\]', html) for html in pages]
     assert [len(set(each[0].replace(" ", "").split(","))) for each in kinds] == [1, 2]
+
+
+@pytest.mark.parametrize(
+    ("seconds", "text"),
+    [(0.0, "0:00.0"), (59.975, "0:59.9"), (60.0, "1:00.0"), (599.96, "9:59.9"), (0.3, "0:00.3")],
+)
+def test_no_minute_has_sixty_seconds(seconds: float, text: str) -> None:
+    assert live_page._clock(seconds) == text

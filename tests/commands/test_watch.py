@@ -5,8 +5,8 @@ from typing import Any
 
 import pytest
 
-from rsoccer import Sensing, cli
-from rsoccer.replay import Replay, record_replay
+from rsoccer import Matches, Sensing, cli
+from rsoccer.replay import Recorder, Replay, record_replay
 from tests.commands.running import run
 
 
@@ -121,6 +121,24 @@ def test_watch_refuses_bad_replays_and_options_of_matches(
     assert "match.rsr is not a usable replay: magic" in capsys.readouterr().err
     assert cli.main(["watch", str(file), "--opponents", "ou"]) == 2
     assert "opponents: expected none for a replay, got ou" in capsys.readouterr().err
+    for words in (["--seed", "5"], ["--seconds", "3"]):
+        assert cli.main(["watch", str(file), *words]) == 2
+        expected = f"{words[0][2:]}: expected no other than the replay's own"
+        assert expected in capsys.readouterr().err
+
+
+def test_watch_saves_a_replay_of_one_frame(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    matches = Matches("VSS-v0", autoreset="disabled")
+    recorder = Recorder(matches)
+    matches.reset()
+    recorder.begin()
+    recorder.replay().save(tmp_path / "one.rsr")
+    saved = tmp_path / "again.rsr"
+    assert cli.main(["watch", str(tmp_path / "one.rsr"), "--save", str(saved)]) == 0
+    assert len(Replay.load(saved)) == 1
+    assert f"replay: {saved} (" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("speed", ["0", "-1", "nan"])

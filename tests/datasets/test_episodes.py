@@ -54,6 +54,18 @@ def test_senses_are_what_the_policy_saw() -> None:
     (true,) = record_episodes("zero", task, 1)
     (sensed,) = record_episodes("zero", task, 1, sensing="rc2021")
     assert not same(true.observations, sensed.observations)
+    assert (true.sensing, true.opponent, true.randomization) == ("", "", {})
+    assert sensed.sensing == "rc2021"
+
+
+def test_episodes_know_the_conditions_of_their_matches() -> None:
+    task = rsoccer.make_task("VSS-v0", max_steps=8)
+    varied = {"robot.mass": (0.9, 1.1)}
+    (episode,) = record_episodes(
+        "best:robust", task, 1, opponent="zero", sensing="vsss", randomization=varied
+    )
+    assert episode.sensing == "vsss, forecast=1", "its policy needs a forecast"
+    assert (episode.opponent, episode.randomization) == ("zero", varied)
 
 
 @pytest.mark.parametrize(

@@ -290,6 +290,16 @@ def test_teams_have_the_tasks_policies_and_scripts_in_the_place_of_learners() ->
     }
 
 
+def test_each_team_has_the_script_of_its_part() -> None:
+    task = make_task("SSLKeepaway-v0", learners="both")
+    chosen = team_controllers(task, "blue_0")
+    assert {name: chosen[name] for name in ("blue_2", "yellow_0", "yellow_1")} == {
+        "blue_2": "keep",
+        "yellow_0": "take",
+        "yellow_1": "take",
+    }
+
+
 def test_wrong_teams_are_refused() -> None:
     with pytest.raises(ValueError, match="robot: expected one of"):
         team_controllers(make_task("VSS-v0"), "red_0")

@@ -100,3 +100,14 @@ def test_a_maker_that_raises_is_named(raised: Exception, kind: type[Exception]) 
     with pytest.raises(kind, match=message) as error:
         rsoccer.Matches("VSS-v0", controllers={"all": "faulty"})
     assert error.value.__cause__ is raised
+
+
+def test_a_maker_that_is_defined_anew_replaces_the_former() -> None:
+    """As in a cell of a notebook that runs again."""
+    for speed in (0.25, 0.5):
+        space = {"Turning": Turning, "__name__": "__main__"}
+        exec(f"def make(task):\n    return Turning(task, {speed})\n", space)
+        rsoccer.register_policy("again", space["make"])  # type: ignore[arg-type]
+        made = policies.make_policy("again", rsoccer.make_task("VSS-v0"))
+        assert isinstance(made, Turning)
+        assert made.skill == speed

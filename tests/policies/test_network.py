@@ -181,5 +181,5 @@ def test_options_that_a_task_no_longer_has_refuse_no_network() -> None:
     network = network_for(task)
     network.metadata["task_options"] = '{"option_of_yesterday": 1}'
     network.check_fits(task, task.layout.size)
-    with pytest.raises(ValueError, match="it plays 'VSS-v0' with .*option_of_yesterday=1"):
+    with pytest.raises(ValueError, match=r"it plays 'VSS-v0' with .*option_of_yesterday=1"):
         network.check_fits(make_task("VSS-v0", n_blue=5, n_yellow=5), 100)

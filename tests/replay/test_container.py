@@ -6,7 +6,7 @@ import zlib
 
 import pytest
 
-from rsoccer.replay import ReplayError
+from rsoccer.replay import ReplayError, container
 from rsoccer.replay.container import MAGIC, pack, unpack
 
 HEADER = {"a": 1, "b": [1.5, "text"]}
@@ -86,3 +86,10 @@ def test_a_bomb_is_not_unpacked() -> None:
         peak = tracemalloc.get_traced_memory()[1]
         tracemalloc.stop()
         assert peak < 2**28
+
+
+def test_a_header_that_could_not_be_read_is_not_written(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(container, "_MAX_HEADER", 100)
+    with pytest.raises(ReplayError, match="header: expected at most 100 bytes, got 1"):
+        pack({"text": "x" * 100}, {})
+    assert unpack(pack({"text": "x"}, {}))[0] == {"text": "x"}

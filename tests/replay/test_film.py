@@ -37,6 +37,16 @@ def test_a_replay_of_a_match_shows_its_referee_as_the_film_does() -> None:
         assert same(image, expected)
 
 
+def test_a_replay_shows_the_kicks_that_the_film_shows() -> None:
+    task = make_task("SSLPassEnduranceMulti-v1")
+    played, _ = film_match(task, lineup(task, "passer"), 0, 4.0, width=160)
+    replayed, _ = film_replay(ssl(), 160)
+    first = ssl().episodes[0].stop
+    assert first > 60
+    for image, expected in zip(islice(replayed, first), islice(played, first), strict=True):
+        assert same(image, expected)
+
+
 def test_goals_and_ends_of_matches_are_shown_for_a_moment() -> None:
     shown = [event.kind for event in vss_match().events if event.kind in ("goal", "end")]
     assert {*shown} == {"goal", "end"}

@@ -2,8 +2,14 @@ import numpy as np
 import pytest
 
 from rsoccer import Matches, Outcome
+from rsoccer.arrays import Floats
+from rsoccer.controllers import Controllers
 from rsoccer.frame import Frame
+from rsoccer.game import YELLOW, EventKind
+from rsoccer.policies import Policy
+from rsoccer.policies.base import Memory, PolicyInput
 from rsoccer.rng import WorldRng
+from rsoccer.task import LEARN
 from rsoccer.tasks import SslPassEndurance
 from tests.tasks.ssl_scenes import DRIBBLE, KICK, STAND, expect_solved, run, scene
 
@@ -102,3 +108,61 @@ def test_initial_positions_are_apart_and_inside() -> None:
 def test_passer_solves_the_task() -> None:
     solved = expect_solved(TASK, "passer", "received", 0.95)
     assert solved.largest_term() == "received"
+
+
+class KicksAtFirst(Policy):
+    """Kicks in the first steps, and stands."""
+
+    observes = "nothing"
+
+    def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> Memory:
+        return {"step": np.zeros(shape[0], np.int64)}
+
+    def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
+        action = (*KICK[:3], 0.5, -1.0) if memory["step"][0] < 2 else STAND
+        memory["step"] += 1
+        return np.broadcast_to(np.array(action, np.float32), inputs.action_shape).copy()
+
+
+def test_a_pass_between_opponents_is_nothing_to_blue() -> None:
+    task = SslPassEndurance(n_opponents=2)
+    frame = scene(
+        task,
+        ball=(-1.5 + float(task.mouth_offset), 0.0),
+        blue_0=(-1.0, 1.5),
+        blue_1=(2.5, 1.5),
+        yellow_0=(-1.5, 0.0),
+        yellow_1=(1.5, 0.0, np.pi),
+    )
+    yellow: Controllers = {"yellow_0": KicksAtFirst(), "yellow_1": "receive"}
+    matches = Matches(task, autoreset="disabled", controllers=yellow)
+    matches.reset(rows=frame.rows)
+    passes = 0
+    for _ in range(80):
+        outcome = matches.step(np.array([[STAND]], np.float32))
+        passes += int(matches.play.events.by_team(EventKind.PASS)[0, YELLOW])
+        assert outcome.terms["received"][0, 0] == 0.0
+        if outcome.ended[0]:
+            break
+    assert passes == 1
+    assert outcome.metrics["received"][0] == 0.0
+
+
+def test_what_is_good_for_blue_is_bad_for_a_yellow_learner() -> None:
+    task = SslPassEndurance(n_opponents=1)
+    both: Controllers = {"blue_0": LEARN, "blue_1": "receive", "yellow_0": LEARN}
+    matches = Matches(task, 16, 0, controllers=both)
+    matches.reset()
+    names = ("received", "ball_to_teammate", "failed")
+    seen = dict.fromkeys(names, 0.0)
+    rng = np.random.default_rng(0)
+    for _ in range(300):
+        matches.step(rng.uniform(-1.0, 1.0, (16, 2, 5)).astype(np.float32))
+        for name in names:
+            terms = matches.observer_terms[name]
+            blue = [i for i, r in enumerate(matches.play.observers) if r < 2]
+            yellow = [i for i, r in enumerate(matches.play.observers) if r >= 2]
+            assert (terms[:, yellow] == -terms[:, blue][:, :1]).all()
+            seen[name] += float(np.abs(terms).sum())
+    assert seen["failed"] > 0.0
+    assert seen["ball_to_teammate"] > 0.0

@@ -423,9 +423,30 @@ def test_the_base_of_the_faulty_tasks_is_correct() -> None:
     check_task(Correct(), worlds=4, steps=60)
 
 
+class HasRowsOfThreeNumbers(Correct):
+    action_table = np.ones((3, 3), np.float32)
+
+
+class HasWholeNumbersAsActions(Correct):
+    action_table = np.ones((3, 2), np.int64)
+
+
+class HasActionsThatAreTooLarge(Correct):
+    action_table = np.full((3, 2), 1.5, np.float32)
+
+
+class LimitsABlockThatItDoesNotHave(Correct):
+    def observation_limits(self) -> dict[str, float]:
+        return {**super().observation_limits(), "bal": 3.0}
+
+
 @pytest.mark.parametrize(
     ("faulty", "message"),
     [
+        (HasRowsOfThreeNumbers, r"action_table: expected float32 numbers \(rows, 2\)"),
+        (HasWholeNumbersAsActions, r"action_table: expected float32 numbers \(rows, 2\)"),
+        (HasActionsThatAreTooLarge, "action_table: expected float32 numbers .* from -1 to 1"),
+        (LimitsABlockThatItDoesNotHave, r"observation_limits: expected names of .*\['bal'\]"),
         (KeepsOnSelf, "calculate_reward_and_done keeps state on self, in steps"),
         (KeepsInAList, r"calculate_reward_and_done keeps state on self, in KeepsInAList\.calls"),
         (ReadsOtherWorlds, "calculate_reward_and_done: 'goal' of worlds .* differ from the same"),

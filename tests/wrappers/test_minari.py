@@ -50,6 +50,41 @@ def test_the_environment_can_be_made_again_from_a_data_set() -> None:
     assert env.observation_space == gymnasium.make(f"rsoccer/{TASK}").observation_space
 
 
+def test_the_environment_has_the_conditions_of_the_matches() -> None:
+    task = rsoccer.make_task("VSS-v0", max_steps=5)
+    varied = {"robot.mass": (0.9, 1.1)}
+    save_minari(
+        NAME,
+        record_episodes("ou", task, 2, opponent="zero", sensing="rc2021", randomization=varied),
+        task,
+    )
+    read = minari.load_dataset(NAME)
+    matches = read.recover_environment().unwrapped.matches
+    assert matches.sensing == rsoccer.Sensing("rc2021")
+    assert matches.randomization == {"robot.mass": [0.9, 1.1]}
+    (others,) = [group for group in matches.assignment.groups if 3 in group.robots]
+    assert type(others.policy).__name__ == "Zero"
+    (metadata, _) = read.storage.get_episode_metadata(range(2))
+    assert (metadata["opponent"], metadata["sensing"]) == ("zero", "rc2021")
+    assert metadata["randomization"] == '{"robot.mass": [0.9, 1.1]}'
+
+
+def test_matches_that_differ_have_no_common_environment() -> None:
+    task = rsoccer.make_task("VSS-v0", max_steps=5)
+    episodes = [
+        *record_episodes("ou", task, 1, sensing="rc2021"),
+        *record_episodes("ou", task, 1, 1),
+    ]
+    save_minari(NAME, episodes, task)
+    assert minari.load_dataset(NAME).env_spec is None
+
+
+def test_discrete_tasks_are_refused() -> None:
+    task = rsoccer.make_task("VSS-v0", max_steps=5, discrete=True)
+    with pytest.raises(ValueError, match="task: expected continuous actions, got VSS-v0"):
+        save_minari(NAME, record_episodes("ou", task, 1), task)
+
+
 def test_teams_have_no_gymnasium_environment() -> None:
     task = rsoccer.make_task("VSSSelfPlay-v0", max_steps=5)
     save_minari(NAME, record_episodes("chase", task, 1), task)

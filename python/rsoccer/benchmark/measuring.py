@@ -95,6 +95,9 @@ def _checked(tasks: Sequence[str] | None) -> tuple[str, ...]:
 def _without_others(entry: Entry, policy: PolicyLike, tasks: Sequence[str]) -> Entry:
     """The entry with the tasks that the policy cannot play, unless it can play none."""
     reasons = {}
+    entry = dataclasses.replace(  # what refused it before may be mended
+        entry, refused={task: why for task, why in entry.refused.items() if task not in tasks}
+    )
     for task in tasks:
         if (reason := _reason_against(policy, task)) is not None:
             reasons[task], entry = reason, entry.without(task, reason)
@@ -105,7 +108,7 @@ def _without_others(entry: Entry, policy: PolicyLike, tasks: Sequence[str]) -> E
 
 def _continued(begun: Entry, new: Entry, name: str | None) -> Entry:
     """The begun entry, if the new one would go on with it."""
-    for field in ("policy", "digest", "matches", "seed", "versions"):
+    for field in ("policy", "digest", "matches", "seed", "versions", "machine"):
         before, now = getattr(begun, field), getattr(new, field)
         if before != now:
             why = "; the policy has changed since" if field == "digest" else ""

@@ -220,8 +220,8 @@ def _driver(server: Server, team: int) -> str:
 
 
 def _clock(seconds: float) -> str:
-    minutes, rest = divmod(seconds, 60.0)
-    return f"{int(minutes)}:{rest:04.1f}"
+    tenths = int(10.0 * seconds + 1e-6)  # whole ones, so that no minute has 60.0 seconds
+    return f"{tenths // 600}:{tenths % 600 / 10:04.1f}"
 
 
 def _page(server: Server) -> str:

@@ -107,6 +107,9 @@ class Watch(Sources, Imports):
         for name in _OF_MATCHES:
             if getattr(self, name) not in (None, {}):
                 raise ValueError(f"{name}: expected none for a replay, got {getattr(self, name)}")
+        for name in ("seed", "seconds"):
+            if getattr(self, name) != getattr(Watch, name):
+                raise ValueError(f"{name}: expected no other than the replay's own")
         return Replay.load(path)
 
     def _record(self) -> Replay:
@@ -128,7 +131,9 @@ class Watch(Sources, Imports):
         """Write a replay to the files, or show it."""
         if self.save is not None:
             path = replay.save(self.save)
-            write(f"replay: {path} ({path.stat().st_size / 1024 / replay.seconds:.1f} KiB/s)")
+            size = path.stat().st_size / 1024
+            rate = f"{size / replay.seconds:.1f} KiB/s" if replay.seconds else f"{size:.1f} KiB"
+            write(f"replay: {path} ({rate})")
         if self.html is not None:
             write(f"page: {replay.save_html(self.html)}")
         if self.video is not None or not (self.html or self.save):

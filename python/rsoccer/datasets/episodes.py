@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rsoccer import checks
+from rsoccer import checks, sensing_text
+from rsoccer._core import Sensing
 from rsoccer.arrays import Floats
 from rsoccer.evaluate.episodes import LearnerPolicy
 from rsoccer.evaluate.schedule import processors
+from rsoccer.frame import team_of
 from rsoccer.lineup import lineup
 from rsoccer.matches import Matches
 from rsoccer.policies import PolicyLike, check_policy_like, make_policy, name_of
@@ -41,6 +45,12 @@ class LearnerEpisode:
     """whether the task ended the episode; otherwise its time limit did"""
     metrics: dict[str, float]
     """metrics of the task at the end of the match, by name"""
+    opponent: str = ""
+    """policy of the other team; empty for the task's own"""
+    sensing: str = ""
+    """senses of the robots, such as "rc2021, forecast=1"; empty where they knew the true state"""
+    randomization: Mapping[str, Any] = field(default_factory=dict)
+    """numbers that each episode drew, by name"""
 
     def __len__(self) -> int:
         return len(self.actions)
@@ -103,8 +113,30 @@ def record_episodes(
             randomization=randomization,
         )
         recorded = _Recorded.of(world, LearnerPolicy(own, world, first))
-        episodes += recorded.episodes(name_of(policy), world, first)
+        against = "" if opponent is None else name_of(opponent)
+        episodes += [
+            replace(
+                episode,
+                opponent=against,
+                sensing=_senses(world),
+                randomization=world.randomization,
+            )
+            for episode in recorded.episodes(name_of(policy), world, first)
+        ]
     return episodes
+
+
+def _senses(matches: Matches) -> str:
+    """Senses of the learners in words, with the forecast that their policy needs."""
+    sensing = matches.sensing
+    if sensing is None:
+        return ""
+    if isinstance(sensing, Sensing):
+        forecasts = set(matches.forecasting) & {team_of(agent) for agent in matches.agents}
+        return sensing_text.describe(
+            sensing_text.with_number(sensing, "forecast", 1.0) if forecasts else sensing
+        )
+    return sensing if isinstance(sensing, str) else type(sensing).__name__
 
 
 @dataclass(frozen=True)

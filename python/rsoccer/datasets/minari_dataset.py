@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+import json
 import warnings
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import gymnasium
 import numpy as np
 
 from rsoccer._core import build_info
 from rsoccer.datasets.episodes import LearnerEpisode
+from rsoccer.policies import is_registered
+from rsoccer.randomization import written
 from rsoccer.registry import as_task, options_of
 from rsoccer.spaces import observation_space
 from rsoccer.task import Task
+from rsoccer.view import SIDES
 
 if TYPE_CHECKING:
     from minari import MinariDataset
@@ -30,8 +34,9 @@ def save_minari(
     """Write episodes as a data set in Minari's folder (`MINARI_DATASETS_PATH`, or `~/.minari`).
 
     Each episode is one robot's. Its metadata have `policy`, `robot`, `seed`, and each metric of the
-    task at the end of the match as `metric_<name>`. Where one robot learns, the data set names the
-    environment, so that `recover_environment` makes it after `import rsoccer`.
+    task at the end of the match as `metric_<name>`, and `opponent`, `sensing` and `randomization`
+    where they are not the task's own. Where one robot learns and all matches were alike, the data
+    set names the environment, so that `recover_environment` makes it after `import rsoccer`.
 
     Args:
         dataset_id: its name in Minari, such as "rsoccer/SSLGoToBall/mixed-v0". It must be new.
@@ -45,7 +50,8 @@ def save_minari(
 
     Raises:
         ImportError: Minari is not installed.
-        ValueError: no episode, episodes of another task, or a name that Minari refuses or has.
+        ValueError: no episode, episodes of another task, a discrete task, whose episodes have the
+            rows of its table as actions, or a name that Minari refuses or has.
     """
     import minari
     from minari.data_collector import EpisodeBuffer
@@ -57,6 +63,8 @@ def save_minari(
             f"episodes: expected observations and actions of {task.layout.size} and "
             f"{task.action_size} numbers, as {task.name} has, got {sorted(sizes) or 'no episode'}"
         )
+    if task.action_table is not None:
+        raise ValueError(f"task: expected continuous actions, got {task.name} with discrete ones")
     if dataset_id in minari.list_local_datasets():
         raise ValueError(f"dataset_id: expected a new one, got {dataset_id!r}, which exists")
     policies = ", ".join(dict.fromkeys(part.policy for part in episodes))
@@ -77,7 +85,7 @@ def save_minari(
                 )
                 for index, part in enumerate(episodes)
             ],
-            env=_spec(task),
+            env=_spec(task, episodes),
             observation_space=observation_space(task),
             action_space=gymnasium.spaces.Box(-1.0, 1.0, (task.action_size,), np.float32),
             algorithm_name=policies,
@@ -98,17 +106,35 @@ def _at_end(steps: int, value: bool) -> list[bool]:
 
 
 def _metadata(episode: LearnerEpisode) -> dict[str, str | float]:
-    """Policy, robot and metrics of an episode."""
+    """Policy, robot, conditions and metrics of an episode."""
     metrics = {f"metric_{name}": value for name, value in episode.metrics.items()}
-    return {"policy": episode.policy, "robot": episode.robot, **metrics}
+    varied = json.dumps(dict(episode.randomization)) if episode.randomization else ""
+    given = {"opponent": episode.opponent, "sensing": episode.sensing, "randomization": varied}
+    conditions = {name: text for name, text in given.items() if text}
+    return {"policy": episode.policy, "robot": episode.robot, **conditions, **metrics}
 
 
-def _spec(task: Task) -> gymnasium.envs.registration.EnvSpec | None:
-    """The environment of a task in which one robot learns; None for others."""
+def _spec(
+    task: Task, episodes: Sequence[LearnerEpisode]
+) -> gymnasium.envs.registration.EnvSpec | None:
+    """The environment of a task in which one robot learns; None where it cannot be named."""
     name = f"rsoccer/{task.name}"
     if len(task.agents) != 1 or name not in gymnasium.registry:
         return None
     options = options_of(task)
     if options is None or not np.all([isinstance(v, str | float | int) for v in options.values()]):
         return None
-    return gymnasium.spec(name) if not options else gymnasium.make(name, **options).spec
+    first = episodes[0]
+    conditions = [(each.opponent, each.sensing, each.randomization) for each in episodes]
+    if any(each != conditions[0] for each in conditions):
+        return None
+    given: dict[str, Any] = dict(options)
+    if first.opponent:
+        if not is_registered(first.opponent):
+            return None
+        given["controllers"] = {SIDES[1]: first.opponent}
+    if first.sensing:
+        given["sensing"] = first.sensing
+    if first.randomization:
+        given["randomization"] = written(first.randomization)
+    return gymnasium.make(name, **given).spec if given else gymnasium.spec(name)

@@ -224,6 +224,7 @@ class Session:
         driver = self.driver
         robots = self.matches.frame.robots
         x, y = robots.position[0, driver.index].tolist()
+        model = config.robots[driver.index]
         lines = screen.OMNI_HELP if driver.has_kicker else screen.DIFFERENTIAL_HELP
         return self._renderer.draw(
             self.matches.frame.rows[0],
@@ -237,7 +238,7 @@ class Session:
                 *task_overlay(self.matches.task, self.matches.play),
                 *sensed_overlay(config, self.matches.play),
                 *self._events,
-                *screen.selection_shapes(config.field, config.robots[driver.index], (x, y)),
+                *(() if self._is_out else screen.selection_shapes(config.field, model, (x, y))),
             ),
             overlay=(
                 *screen.status_shapes(config.field, self._left_status(), self._right_status()),
@@ -255,10 +256,17 @@ class Session:
         """The driven robot and the state of its switches."""
         driver = self.driver
         name = f"{team_of(driver.robot)} {driver.robot.rpartition('_')[2]}".upper()
+        if self._is_out:
+            return [name, "off the field"]
         if not driver.has_kicker:
             return [name]
         dribbler = "on" if driver.controls.dribble else "off"
         return [f"{name}, {driver.frame} axes", f"dribbler {dribbler}"]
+
+    @property
+    def _is_out(self) -> bool:
+        """Whether the driven robot is off the field, after a card say."""
+        return bool(self.matches.frame.robots.absent[0, self.driver.index] > 0.0)
 
     def _right_status(self) -> list[str]:
         """Pause and speed, and the key of the help."""

@@ -32,9 +32,8 @@ def team_controllers(
     others = [name for name in task.robots if team_of(name) != team_of(robot)]
     if opponent is not None and not others:
         raise ValueError(f"opponent: {task.name} has one team only, so it has no opponent")
-    script = script_of(task)
     defaults: dict[str, Controller] = {
-        name: script if isinstance(default, Learn) else default
+        name: script_of(task, team_of(name)) if isinstance(default, Learn) else default
         for name, default in task.default_controllers().items()
     }
     if policy is not None:

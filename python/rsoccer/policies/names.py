@@ -20,6 +20,7 @@ from rsoccer.policies.ssl.team import ScriptedSsl
 from rsoccer.policies.ssl.weave import Weave
 from rsoccer.policies.vss.chase import Chase
 from rsoccer.policies.vss.scripted import Scripted
+from rsoccer.registry.names import is_redefined
 from rsoccer.task import Task
 
 Maker = Callable[..., Policy]
@@ -75,7 +76,8 @@ def register_policy(name: str, maker: Maker) -> None:
 
     Raises:
         TypeError: `maker` is no class of policies and no function, or takes other arguments.
-        ValueError: a name of another form, or one that is taken.
+        ValueError: a name of another form, or one that is taken. A maker that is defined anew, as
+            in a cell of a notebook that runs again, replaces the former one.
 
     Example:
         >>> from rsoccer import register_policy
@@ -86,7 +88,8 @@ def register_policy(name: str, maker: Maker) -> None:
         raise TypeError(f"name: expected text, got {name!r}")
     if not _NAME.fullmatch(name):
         raise ValueError(f"name: expected letters, digits and underscores, got {name!r}")
-    if name in RESERVED or _MAKERS.get(name, maker) is not maker:
+    before = _MAKERS.get(name, maker)
+    if name in RESERVED or (before is not maker and not is_redefined(before, maker)):
         raise ValueError(f"name: {name!r} is already taken")
     check_maker(maker)
     _MAKERS[name] = maker

@@ -130,7 +130,7 @@ def _write_status(game: Game, status: RefereeStatus) -> None:
         game.yellow_cards[0, team] = reported.yellow_cards
         game.red_cards[0, team] = reported.red_cards
     if status.seconds_left is not None:
-        game.seconds_left[0] = status.seconds_left
+        game.seconds_left[0] = max(0.0, status.seconds_left)  # it is negative in overtime
     if status.designated_position is not None:
         game.designated_position[0] = status.designated_position
 

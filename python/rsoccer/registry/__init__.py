@@ -2,6 +2,7 @@
 
 from rsoccer.registry.arguments import (
     as_task,
+    copied,
     options_of,
     resolve_task,
     task_with_options,
@@ -22,4 +23,11 @@ from rsoccer.registry.names import (
 
 __all__ = ["Alias", "alias", "is_task_name", "list_aliases", "list_options", "list_tasks"]
 __all__ += ["make_task", "register", "register_removed", "task_class"]
-__all__ += ["as_task", "options_of", "resolve_task", "task_with_options", "with_max_steps"]
+__all__ += [
+    "as_task",
+    "copied",
+    "options_of",
+    "resolve_task",
+    "task_with_options",
+    "with_max_steps",
+]

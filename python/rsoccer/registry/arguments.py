@@ -3,6 +3,7 @@
 import copy
 import inspect
 from collections.abc import Callable, Mapping
+from functools import cached_property
 from typing import Any
 
 from rsoccer import checks, option_values
@@ -121,6 +122,20 @@ def with_max_steps(task: Task, max_steps: int, name: str) -> Task:
         TypeError: not an integer.
         ValueError: less than 1.
     """
-    task = copy.copy(task)
+    task = copied(task)
     object.__setattr__(task, "max_steps", checks.integer(name, max_steps, 1))
+    return task
+
+
+def copied(task: Task) -> Task:
+    """Return a copy of a task whose cached properties are computed anew, from what changes in it.
+
+    Args:
+        task: the task.
+    """
+    parts = (part for each in type(task).__mro__ for part in vars(each).items())
+    cached = {name for name, value in parts if isinstance(value, cached_property)}
+    task = copy.copy(task)
+    for name in vars(task).keys() & cached:
+        del vars(task)[name]
     return task

@@ -24,6 +24,20 @@ _REMOVED: Final[dict[str, str]] = {}
 _NAME: Final = re.compile(r"[A-Za-z][A-Za-z0-9_]*-v[0-9]+")
 
 
+def is_redefined(before: object, now: object) -> bool:
+    """Return whether code that was defined before has been defined anew: in a notebook, say.
+
+    Args:
+        before: class or function.
+        now: another one.
+    """
+
+    def place(each: object) -> tuple[object, object]:
+        return getattr(each, "__module__", None), getattr(each, "__qualname__", None)
+
+    return type(before) is type(now) and None not in place(now) and place(before) == place(now)
+
+
 def register(name: str, task_class: type[Task]) -> None:
     """Register a task class and set its `name`.
 
@@ -36,14 +50,16 @@ def register(name: str, task_class: type[Task]) -> None:
 
     Raises:
         TypeError: `name` is no text, or `task_class` is not a subclass of `Task`.
-        ValueError: `name` has no version or is taken, or the class is registered already.
+        ValueError: `name` has no version or is taken, or the class is registered already. A class
+            that is defined anew, as in a cell of a notebook that runs again, replaces the former.
         Exception: any error of creating the task, where all its options have defaults.
     """
     _check_name(name)
     if not (isinstance(task_class, type) and issubclass(task_class, Task)):
         raise TypeError(f"task_class: expected a subclass of Task, got {task_class!r}")
-    if _TASKS.get(name, task_class) is not task_class:
-        raise ValueError(f"name: {name!r} is already taken by {_TASKS[name].__qualname__}")
+    before = _TASKS.get(name, task_class)
+    if before is not task_class and not is_redefined(before, task_class):
+        raise ValueError(f"name: {name!r} is already taken by {before.__qualname__}")
     if name in _ALIASES:
         raise ValueError(f"name: {name!r} is already taken, for {_ALIASES[name].task}")
     known = next((n for n, registered in _TASKS.items() if registered is task_class), name)

@@ -78,7 +78,7 @@ def _middle(bounds: Bounds, state: RefereeState) -> tuple[Shape, ...]:
     ]
     if has_clock(state):
         # The last second ends at 0:00.
-        clock = clock_text(math.ceil(state.seconds_left - 1e-3))
+        clock = clock_text(max(0, math.ceil(state.seconds_left - 1e-3)))
         lower, upper = bounds.bottom + 0.33 * height, bounds.bottom + 0.75 * height
         texts += [
             Text((0.0, upper), 0.19 * height, stage, palette.MUTED, between),

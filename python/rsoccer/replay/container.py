@@ -46,11 +46,19 @@ def pack(header: Mapping[str, Any], sections: Mapping[str, bytes]) -> bytes:
 
     Returns:
         The file; equal input gives equal bytes.
+
+    Raises:
+        ReplayError: a header that is longer than those that are read.
     """
     packed = {name: zlib.compress(content, 9) for name, content in sections.items()}
     listed = [[name, len(part), len(sections[name])] for name, part in packed.items()]
     text = json.dumps({**header, "sections": listed}, separators=(",", ":"), allow_nan=False)
-    head = zlib.compress(text.encode(), 9)
+    plain = text.encode()
+    if len(plain) > _MAX_HEADER:
+        raise ReplayError(
+            f"header: expected at most {_MAX_HEADER} bytes, got {len(plain)}; record less time"
+        )
+    head = zlib.compress(plain, 9)
     body = b"".join([head, *packed.values()])
     fixed = _FIXED.pack(MAGIC, VERSION, len(head), _START + len(body))
     return fixed + hashlib.sha256(fixed + body).digest() + body

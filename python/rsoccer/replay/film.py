@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from rsoccer.render.effects import Effects
 from rsoccer.render.ghosts import SensedWorld, ghost_shapes
 from rsoccer.render.image import Image, Renderer, default_width
 from rsoccer.render.overlay import marker_shapes
@@ -41,15 +42,18 @@ def _images(replay: Recorded, renderer: Renderer, ghosts: bool) -> Iterator[Imag
     pause = math.ceil(GOAL_PAUSE / replay.config.time_step)
     states = replay.referee_states or (None,) * len(replay)
     announcements = replay.announcements
+    effects = Effects(replay.config)
     for frame, row in enumerate(replay.rows):
         if frame and replay.starts[frame]:
+            effects.clear()
             continue
+        clock = float(replay.clock[frame])
         blue, yellow = replay.score[frame].tolist()
         caption = caption_of(states[frame], scored=frame in goals)
         image = renderer.draw(
             row,
             score=(blue, yellow),
-            clock=float(replay.clock[frame]),
+            clock=clock,
             names=replay.names,
             caption=caption,
             referee=states[frame],
@@ -57,6 +61,7 @@ def _images(replay: Recorded, renderer: Renderer, ghosts: bool) -> Iterator[Imag
             extras=(
                 *marker_shapes(replay.config.field, replay.markers[frame]),
                 *(_ghosts(replay, frame) if ghosts else ()),
+                *(effects.update(row, clock, replay.commands[frame]) if frame else ()),
             ),
         )
         for _ in range(pause if caption else 1):

@@ -119,7 +119,7 @@ class SslAttack(Ssl):
             "goal": goal,
             "ball_to_goal": rewards.ball_to_goal(play, self.config.field),
             "approach": rewards.approach_mouth(play, self.config),
-            "failed": failed[:, None].astype(np.float32),
+            "failed": rewards.of_blue(play, failed),
             "energy": rewards.energy(play),
         }
         return rewards.weighted_terms(terms, self.term_weights), failed | rewards.scored(play)

@@ -171,10 +171,10 @@ class SslDribbling(Ssl):
         passed += forward & ~failed
         progress = self.course.gate_distance(gate, before) - self.course.gate_distance(gate, now)
         terms = {
-            "gate": (forward & ~failed)[:, None].astype(np.float32),
-            "progress": progress[:, None],
+            "gate": rewards.of_blue(play, forward & ~failed),
+            "progress": rewards.of_blue(play, progress),
             "approach": rewards.approach_mouth(play, self.config),
-            "failed": failed[:, None].astype(np.float32),
+            "failed": rewards.of_blue(play, failed),
             "energy": rewards.energy(play),
         }
         complete = passed >= len(self.course.gates)

@@ -108,9 +108,9 @@ class SslGoToBall(Ssl):
         reached = self._reached(play)
         left = self.is_off_field(play.frame.blue.position[:, 0])
         terms = {
-            "reached": reached[:, None].astype(np.float32),
+            "reached": rewards.of_blue(play, reached),
             "approach": rewards.approach_mouth(play, self.config),
-            "left_field": left[:, None].astype(np.float32),
+            "left_field": rewards.of_blue(play, left),
             "energy": rewards.energy(play),
         }
         return rewards.weighted_terms(terms, self.term_weights), reached | left

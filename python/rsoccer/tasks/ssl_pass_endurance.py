@@ -77,7 +77,7 @@ class SslPassEndurance(SslPass):
         """Compute the reward terms of the class's table; pass received or failed terminates."""
         distance = self._ball_distances(play.frame)
         last_distance = self._ball_distances(play.last_frame)
-        received = play.events.happened(EventKind.PASS)
+        received = play.events.by_team(EventKind.PASS)[:, BLUE] > 0
         out_of_reach = self._is_released(play, np.zeros(len(received), np.intp))
         released = play.memory["released"]
         released |= out_of_reach
@@ -87,10 +87,12 @@ class SslPassEndurance(SslPass):
         failed |= self._has_been_taken(play)
         failed &= ~received
         terms = {
-            "received": received[:, None].astype(np.float32),
+            "received": rewards.of_blue(play, received),
             # A ball that is carried earns nothing: robots would walk up to each other.
-            "ball_to_teammate": (last_distance - distance)[:, 1:] * out_of_reach[:, None],
-            "failed": failed[:, None].astype(np.float32),
+            "ball_to_teammate": rewards.of_blue(
+                play, (last_distance - distance)[:, 1] * out_of_reach
+            ),
+            "failed": rewards.of_blue(play, failed),
             "energy": rewards.energy(play),
         }
         return rewards.weighted_terms(terms, self.term_weights), received | failed

@@ -117,17 +117,17 @@ class SslPassEnduranceMulti(SslPass):
         progress = (last_distance - distance)[worlds, receiver] * was_on_its_way
         # Robots that are rewarded for going to a ball that is held walk up to each other.
         receives = was_on_its_way[:, None] & (receiver[:, None] == play.observers)
-        passed = play.events.happened(EventKind.PASS)
+        passed = play.events.by_team(EventKind.PASS)[:, BLUE] > 0
         self._update_holder(play, receiver)
         # From here on the holder may be the former receiver.
         next_receiver = play.frame.blue.position[worlds, 1 - memory["holder"]]
         missed = memory["on_its_way"] & self._has_missed(play.frame, next_receiver)
         failed = missed | self.is_off_field(play.frame.ball.position) | self._has_been_taken(play)
         terms = {
-            "passes": passed[:, None].astype(np.float32),
-            "ball_to_teammate": progress[:, None],
+            "passes": rewards.of_blue(play, passed),
+            "ball_to_teammate": rewards.of_blue(play, progress),
             "approach": rewards.approach_mouth(play, self.config) * receives,
-            "failed": failed[:, None].astype(np.float32),
+            "failed": rewards.of_blue(play, failed),
             "energy": rewards.energy(play),
         }
         return rewards.weighted_terms(terms, self.term_weights), failed

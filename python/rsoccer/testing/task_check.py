@@ -8,7 +8,6 @@ Some faults need contacts, so the robots also drive at the ball.
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Final
@@ -21,6 +20,7 @@ from rsoccer.frame import team_of
 from rsoccer.matches import Matches
 from rsoccer.new_play import new_play, new_viewpoint
 from rsoccer.policies.base import Policy
+from rsoccer.registry import copied
 from rsoccer.rng import WorldRng
 from rsoccer.rules import Restart
 from rsoccer.rules.base import begin
@@ -53,7 +53,8 @@ def check_task(task: Task, worlds: int = 7, steps: int = 200, seed: int = 3) -> 
 
     Each method is checked by itself, on states of the start, of play and of ends of episodes:
 
-    - It returns arrays of the documented shapes, float32 and finite.
+    - It returns arrays of the documented shapes, float32 and finite. So is an `action_table`, and
+      `observation_limits` that the class adds are those of blocks.
     - It only reads: frames, views, actions and commands never change. Memory changes in
       `start_episode` and `calculate_reward_and_done` alone, and keeps the names, shapes and types
       of `new_memory`. `play.game` and `play.events` change in the rules alone.
@@ -95,6 +96,7 @@ def check_task(task: Task, worlds: int = 7, steps: int = 200, seed: int = 3) -> 
         raise ValueError(f"worlds: expected at least 2, to compare neighbors, got {worlds}")
     long, task = _with_time_limit(task, steps), _with_time_limit(task, max(2, steps // 5))
     _check_controllers(task)
+    _check_tables(task)
     _check_start(task, worlds, seed)
     _check_pressure(long, worlds, steps, seed)
     kept = KeptState(task)
@@ -111,7 +113,7 @@ def check_task(task: Task, worlds: int = 7, steps: int = 200, seed: int = 3) -> 
 
 def _with_time_limit(task: Task, max_steps: int) -> Task:
     """Copy of a task with a time limit so short that episodes end during the check."""
-    limited = copy.copy(task)
+    limited = copied(task)
     vars(limited)["max_steps"] = min(task.max_steps, max_steps)
     return limited
 
@@ -125,6 +127,27 @@ def _check_controllers(task: Task) -> None:
         f"default_controllers: expected LEARN, a policy or its name for each of {robots}, "
         f"got {controllers}",
     )
+
+
+def _check_tables(task: Task) -> None:
+    """Check the actions of a discrete task, and that bounds are those of blocks."""
+    table = task.action_table
+    if table is not None:
+        is_table = isinstance(table, np.ndarray) and table.dtype == np.float32 and table.ndim == 2
+        words = f"action_table: expected float32 numbers (rows, {task.action_size}) from -1 to 1"
+        expect(
+            is_table and table.shape[1] == task.action_size and len(table) > 0,
+            f"{words}, got {table!r}",
+        )
+        expect(bool((np.abs(table) <= 1.0).all()), f"{words}, got {table!r}")  # False for NaN
+    own = vars(type(task)).get("observation_limits")
+    if own is not None:  # a class of the package lists blocks that not all of its tasks have
+        inherited = super(type(task), task).observation_limits()
+        unknown = sorted(set(task.observation_limits()) - set(inherited) - set(task.layout.blocks))
+        expect(
+            not unknown,
+            f"observation_limits: expected names of {list(task.layout.blocks)}, got {unknown}",
+        )
 
 
 def _check_start(task: Task, worlds: int, seed: int) -> None:

@@ -13,6 +13,7 @@ class LiveRows {
     this.rows = []; // the oldest first
     this.headings = [];
     this.sensedRows = [];
+    this.sensedHeadings = [];
     this.sensedNumbers = null;
     this.state = referee;
     this.starts = new Uint8Array(FRAMES);
@@ -25,29 +26,35 @@ class LiveRows {
     this.rows = [];
     this.headings = [];
     this.sensedRows = [];
+    this.sensedHeadings = [];
     while (this.rows.length < FRAMES) this.add(row, sensed, report);
   }
 
   /** Add the newest row; `sensed` is null where robots know the true state. */
   add(row, sensed, report) {
-    const last = this.headings[this.headings.length - 1];
-    const headings = Array.from({ length: this.robotCount }, (_, i) => {
-      const at = this.ballSize + i * this.robotSize;
-      const angle = Math.atan2(row[at + this.robotNames.sin], row[at + this.robotNames.cos]);
-      if (!last) return angle;
-      // The nearest angle to the last one: headings are drawn between frames.
-      return last[i] + Math.atan2(Math.sin(angle - last[i]), Math.cos(angle - last[i]));
-    });
     this.rows.push(row);
-    this.headings.push(headings);
+    this.headings.push(this.angles(row, this.headings));
     this.sensedRows.push(sensed ?? row);
+    this.sensedHeadings.push(this.angles(sensed ?? row, this.sensedHeadings));
     this.sensedNumbers = sensed;
     this.state = report;
     if (this.rows.length > FRAMES) {
       this.rows.shift();
       this.headings.shift();
       this.sensedRows.shift();
+      this.sensedHeadings.shift();
     }
+  }
+
+  /** Headings of a row, each the nearest to that before: they are drawn between frames. */
+  angles(row, before) {
+    const last = before[before.length - 1];
+    return Array.from({ length: this.robotCount }, (_, i) => {
+      const at = this.ballSize + i * this.robotSize;
+      const angle = Math.atan2(row[at + this.robotNames.sin], row[at + this.robotNames.cos]);
+      if (!last) return angle;
+      return last[i] + Math.atan2(Math.sin(angle - last[i]), Math.cos(angle - last[i]));
+    });
   }
 
   get newest() {
@@ -68,9 +75,8 @@ class LiveRows {
     const row = this.sensedRows[frame];
     const [, column, index] = /^(ball_.|x|y|heading)(?:_(\d+))?$/.exec(name);
     if (column.startsWith("ball")) return row[this.ballNames[column.slice(5)]];
-    const at = this.ballSize + Number(index) * this.robotSize;
-    if (column !== "heading") return row[at + this.robotNames[column]];
-    return Math.atan2(row[at + this.robotNames.sin], row[at + this.robotNames.cos]);
+    if (column === "heading") return this.sensedHeadings[frame][Number(index)];
+    return row[this.ballSize + Number(index) * this.robotSize + this.robotNames[column]];
   }
 
   /** Numbers of the referee that the marks on the floor need. */

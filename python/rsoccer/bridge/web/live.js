@@ -57,13 +57,17 @@ function push(columns, numbers, frames) {
   });
 }
 
-function connect(live) {
+/** Watch; a server that comes back may serve another match, whose page is loaded anew. */
+function connect(live, isAgain = false) {
   const socket = new WebSocket(`ws://${window.location.host}/frames`);
+  socket.onopen = () => {
+    if (isAgain && live.received) window.location.reload();
+  };
   socket.onmessage = (event) => live.add(JSON.parse(event.data));
-  socket.onclose = () => {
-    $("message").textContent = "The server is gone";
+  socket.onclose = (event) => {
+    $("message").textContent = event.reason || "The server is gone";
     $("message").hidden = false;
-    setTimeout(() => connect(live), RETRY);
+    setTimeout(() => connect(live, true), RETRY);
   };
 }
 

@@ -23,7 +23,7 @@ function newElement(tag, className, ...children) {
 
 /** Minutes and seconds that are left; the last second ends at 0:00. */
 function timeLeft(seconds) {
-  const whole = Math.ceil(seconds - 1e-3);
+  const whole = Math.max(0, Math.ceil(seconds - 1e-3));
   return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, "0")}`;
 }
 

@@ -287,6 +287,9 @@ class Player {
       setText(list.children[i].firstChild, name);
       setText(list.children[i].lastChild, text);
     });
+    [...list.children].forEach((row, i) => {
+      row.hidden = i >= numbers.length; // an absent robot has one number alone
+    });
   }
 
   showRewards(frame) {
