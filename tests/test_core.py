@@ -22,6 +22,7 @@ from rsoccer._core import (
     MAX_PLACED_SPIN,
     ROBOT_COLUMNS,
     Field,
+    Forecaster,
     SimConfig,
     Simulator,
     Threads,
@@ -85,6 +86,7 @@ def test_a_configuration_survives_json_and_pickle() -> None:
         ({"time_step": -0.025}, "time_step must be positive and finite, got -0.025"),
         ({"time_step": float("nan")}, "time_step must be positive and finite"),
         ({"tick": 0.004}, "whole number of ticks"),
+        ({"tick": 1e-40, "time_step": 2e-40}, "tick must be at least 0.00001 s"),
     ],
 )
 def test_a_bad_configuration_is_refused_by_name(options: dict[str, Any], words: str) -> None:
@@ -250,6 +252,16 @@ def test_a_foreign_snapshot_is_refused(junk: bytes) -> None:
     with pytest.raises(ValueError, match="damaged"):
         simulator.restore(before[:-7])
     assert simulator.snapshot() == before
+
+
+def test_a_forecaster_takes_no_snapshot_of_a_simulator() -> None:
+    simulator, forecaster = Simulator(CONFIG, 2), Forecaster(CONFIG, 2)
+    before = forecaster.snapshot()
+    with pytest.raises(ValueError, match="another configuration"):
+        forecaster.restore(simulator.snapshot())
+    with pytest.raises(ValueError, match="another configuration"):
+        simulator.restore(before)
+    assert forecaster.snapshot() == before
 
 
 def test_simulators_on_the_same_threads_equal_one_on_its_own() -> None:

@@ -138,3 +138,16 @@ def test_foreign_states_are_refused_by_the_core(states: Any) -> None:  # noqa: A
     ):
         with pytest.raises((TypeError, ValueError), match="states must"):
             draw()
+
+
+@pytest.mark.parametrize("n", [0, 1, 4])
+@pytest.mark.parametrize("count", [2**32, 2**60, 2**62, 2**63])
+def test_more_numbers_than_memory_are_refused(n: int, count: int) -> None:
+    states = np.zeros(n, np.uint64)
+    for draw in (
+        lambda: _core.random_words(states, count),
+        lambda: _core.uniform(states, count, 0.0, 1.0),
+        lambda: _core.normal_inputs(states, count),
+    ):
+        with pytest.raises(ValueError, match="count must be at most"):
+            draw()

@@ -155,3 +155,24 @@ def test_arrays_of_other_types_are_refused() -> None:
         tracker.take(0.0, np.zeros((1, 2)), NOBODY)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="out must have shape"):
         tracker.read(np.zeros((1, len(ROBOT_COLUMNS)), np.float32))
+
+
+@pytest.mark.parametrize("length", [1e-2, 1.0, 30.0, 1e20, 3e38])
+def test_headings_may_have_any_length_above_0(length: float) -> None:
+    tracker = VisionTracker(CONFIG)
+    long = seen(0, 0.0, 0.5)
+    long[0, 3:] *= np.float32(length)
+    tracker.take(0.0, NO_BALL, long)
+    found = read(tracker).robots.heading[0, 0]
+    np.testing.assert_allclose(found, [np.cos(0.5), np.sin(0.5)], atol=1e-5)
+
+
+def test_bodies_do_not_go_on_for_ever_over_a_gap() -> None:
+    tracker = VisionTracker(CONFIG)
+    for frame in range(60):
+        tracker.take(frame / 60, np.array([[frame / 60, 1.0]], np.float32), seen(0, frame / 60))
+    tracker.take(11.0, NO_BALL, NOBODY)
+    found = read(tracker)
+    assert found.ball.position[0, 0] == pytest.approx(1.28, abs=0.02)
+    assert found.robots.position[0, 0, 0] == pytest.approx(1.28, abs=0.02)
+    assert not found.ball.velocity.any()

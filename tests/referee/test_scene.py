@@ -6,6 +6,14 @@ from typing import Any
 import numpy as np
 import pytest
 
+from rsoccer import Field, SimConfig, Simulator
+from rsoccer._core import (
+    GAME_COLUMNS,
+    STATISTICS_COLUMNS,
+    Referee,
+    ScriptedTeam,
+    referee_preset,
+)
 from rsoccer.arrays import Floats
 from rsoccer.frame import Frame
 from rsoccer.game import Command, EventKind
@@ -115,3 +123,70 @@ def test_rules_are_listed_with_sources() -> None:
         assert all(entry.source and entry.summary and "::" in entry.function for entry in entries)
     with pytest.raises(ValueError, match="league: expected 'ssl' or 'vsss'"):
         rules("x")
+
+
+@pytest.mark.parametrize(("n_blue", "n_yellow"), [(1, 0), (0, 1), (0, 0)])
+def test_teams_may_have_no_robots(n_blue: int, n_yellow: int) -> None:
+    config = SimConfig("ssl_b", n_blue, n_yellow)
+    robots = {"blue_0": (-3.0, 0.0)} if n_blue else {}
+    robots |= {"yellow_0": (3.0, 0.0)} if n_yellow else {}
+    start = {"ball": (-1.5, 0.0), "robots": robots, "command": "NORMAL_START"}
+    for kick in ("PREPARE_PENALTY_BLUE", "PREPARE_KICKOFF_YELLOW"):
+        scene = play_scene("ssl", {**start, "kick": kick}, seconds=0.5, config=config)
+        assert scene is not None
+    if not robots:
+        with pytest.raises(ValueError, match="config: expected robots, got none"):
+            ScriptedTeam(config, 1.0)
+        return
+    for team in (0, 1):
+        script = ScriptedTeam(config, 1.0)
+        memory = np.zeros((1, script.memory_size), np.float32)
+        script.begin(memory, [0])
+        row = np.zeros((1, config.row_size), np.float32)
+        Simulator(config).read(row)
+        commands = script.commands(row, Referee.new_game(0)[None], memory, team)
+        assert commands.shape[:2] == (1, (n_blue, n_yellow)[team])
+        assert np.isfinite(commands).all()
+
+
+def test_indices_that_no_robot_has_are_nobody() -> None:
+    config = SimConfig("ssl_b", 2, 2)
+    referee = Referee(config, referee_preset("ssl_2026_b"))
+    game = Referee.new_game(0)[None].copy()
+    for name in ("kick_taker", "last_touch", "dribbler"):
+        game[0, GAME_COLUMNS.index(name)] = 40
+    game[0, GAME_COLUMNS.index("in_play")] = 1
+    game[0, GAME_COLUMNS.index("command")] = 3
+    arrays = (
+        game,
+        np.zeros((1, len(STATISTICS_COLUMNS)), np.float32),
+        np.zeros((1, 2), np.int64),
+        np.zeros(1, np.float32),
+        np.zeros((1, 4), np.bool_),
+    )
+    row = np.zeros((1, config.row_size), np.float32)
+    Simulator(config).read(row)
+    referee.judge(row, row, arrays, row.copy())
+    assert np.isfinite(game).all()
+
+
+@pytest.mark.parametrize("name", ["half_seconds", "stop_seconds"])
+def test_times_that_a_row_cannot_count_are_refused(name: str) -> None:
+    numbers: dict[str, Any] = {name: 1e6}
+    with pytest.raises(ValueError, match=f"{name}: expected at most 209715.2 s, got 1000000"):
+        play_scene(RefereeConfig("ssl_2026_b", **numbers), {"ball": (0.0, 0.0)})
+
+
+def test_distances_that_do_not_fit_the_field_are_cut() -> None:
+    start = {"ball": (0.0, 2.9, 0.0, 2.0), "last_touch": "blue_0"}
+    rules = RefereeConfig("ssl_2026_b", kick_line_distance=3.5)
+    assert EventKind.BALL_LEFT_FIELD_TOUCH_LINE in kinds(play_scene(rules, start))
+    field = Field("ssl_b", goal_width=0.17)
+    config = SimConfig(field, 1, 1, robot="ssl_generic", ball="ssl_tigers")
+    penalty = {
+        "ball": (0.0, 0.0),
+        "robots": {"blue_0": (-1.0, 0.0), "yellow_0": (2.0, 1.0)},
+        "command": "STOP",
+        "next_command": "PREPARE_PENALTY_BLUE",
+    }
+    assert play_scene("ssl", penalty, seconds=5.0, config=config) is not None

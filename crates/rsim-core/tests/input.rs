@@ -3,7 +3,8 @@
 use rsim_core::columns::ball_column;
 use rsim_core::scenes::{self, robots_mut};
 use rsim_core::{
-    BallModel, Batch, EngineKind, Field, PlaceError, RobotModel, SimConfig, SnapshotError, World,
+    BallModel, Batch, EngineKind, Field, Forecaster, Knowledge, PlaceError, RobotModel, SimConfig,
+    SnapshotError, Threads, World,
 };
 
 fn message(config: &SimConfig) -> String {
@@ -175,6 +176,29 @@ fn foreign_and_damaged_snapshots_are_refused() {
     }
     assert_eq!(batch.restore(&good), Ok(()));
     assert_eq!(batch.snapshot(), good, "nothing had changed");
+}
+
+#[test]
+fn a_forecaster_takes_no_snapshot_of_a_simulator_and_the_reverse() {
+    let (mut batch, _) = scenes::chase().batch(2, 1);
+    let threads = Threads::new(1).expect("one");
+    let mut forecaster =
+        Forecaster::new(batch.config(), 2, Knowledge::All, threads).expect("valid");
+    let own = forecaster.snapshot();
+    assert_eq!(forecaster.restore(&batch.snapshot()), Err(SnapshotError::OtherConfig));
+    assert_eq!(batch.restore(&own), Err(SnapshotError::OtherConfig));
+    assert_eq!(forecaster.restore(&own), Ok(()));
+}
+
+#[test]
+fn ticks_and_teams_have_limits() {
+    let config = scenes::chase().config;
+    let tick = SimConfig { tick: 1e-40, time_step: 2e-40, ..config.clone() };
+    let error = tick.validate().expect_err("too short").to_string();
+    assert!(error.starts_with("tick must be at least 0.00001 s, got"), "{error}");
+    let field = Field { max_robots: 32, ..config.field };
+    let error = field.validate().expect_err("too many").to_string();
+    assert_eq!(error, "field.max_robots must be at most 31, got 32");
 }
 
 #[test]

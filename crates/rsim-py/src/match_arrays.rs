@@ -76,12 +76,15 @@ impl Borrowed<'_> {
 impl<'a> Matches<'a> {
     /// The same matches, `count` at a time.
     pub(crate) fn split(self, count: usize, sizes: &Sizes) -> impl Iterator<Item = Matches<'a>> {
+        // Without robots there are no numbers of them, but matches.
+        let robots = self.may_touch.chunks_mut((count * sizes.robots).max(1));
+        let robots = robots.chain(std::iter::repeat_with(Default::default));
         self.game
             .chunks_mut(count * sizes.game)
             .zip(self.statistics.chunks_mut(count * sizes.statistics))
             .zip(self.score.chunks_mut(count * 2))
             .zip(self.seconds_left.chunks_mut(count))
-            .zip(self.may_touch.chunks_mut(count * sizes.robots))
+            .zip(robots)
             .map(|((((game, statistics), score), seconds_left), may_touch)| Matches {
                 game,
                 statistics,

@@ -104,6 +104,9 @@ impl ScriptedTeam {
         let (rows, games) = (values(&rows), values(&game));
         let robots = self.sizes[team];
         let commands = PyArray3::zeros(py, [n, robots, COMMAND_COLUMNS.len()], false);
+        if robots == 0 {
+            return Ok(commands);
+        }
         // Each world's memory and commands are written together, as one row.
         let numbers = self.memory_size + robots * COMMAND_COLUMNS.len();
         let mut both = vec![0.0; n * numbers];

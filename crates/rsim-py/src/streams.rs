@@ -3,10 +3,14 @@
 use std::f32::consts::TAU;
 
 use numpy::{Element, Ix1, PyArray2, PyReadonlyArray, ndarray::Array2};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rsim_core::streams::{unit, units, words};
 
 use crate::arrays::{self, readable, sizes};
+
+/// More numbers than anybody needs at once; a larger number is a mistake.
+const MAX_TOTAL: usize = 1 << 31;
 
 type Drawn<'py, T> = Bound<'py, PyArray2<T>>;
 
@@ -42,7 +46,8 @@ pub(crate) fn normal_inputs<'py>(
 ) -> PyResult<(Drawn<'py, f32>, Drawn<'py, f32>)> {
     let [n] = sizes("states", states)?;
     let states: PyReadonlyArray<'_, u64, Ix1> = readable("states", states, &[n])?;
-    let [mut first, mut second] = [(); 2].map(|()| Vec::with_capacity(n * count));
+    let all = total(n, count)?;
+    let [mut first, mut second] = [(); 2].map(|()| Vec::with_capacity(all));
     for word in words(&arrays::values(&states), count) {
         let [one, other] = units(word);
         first.push(one);
@@ -60,9 +65,19 @@ fn drawn<'py, T: Element>(
 ) -> PyResult<Drawn<'py, T>> {
     let [n] = sizes("states", states)?;
     let states: PyReadonlyArray<'_, u64, Ix1> = readable("states", states, &[n])?;
-    let mut all = Vec::with_capacity(n * count);
+    let mut all = Vec::with_capacity(total(n, count)?);
     all.extend(words(&arrays::values(&states), count).map(number));
     Ok(array(py, n, count, all))
+}
+
+/// Numbers of `n` streams together.
+fn total(n: usize, count: usize) -> PyResult<usize> {
+    n.max(1).checked_mul(count).filter(|total| *total <= MAX_TOTAL).map(|_| n * count).ok_or_else(
+        || {
+            let expected = MAX_TOTAL / n.max(1);
+            PyValueError::new_err(format!("count must be at most {expected}, got {count}"))
+        },
+    )
 }
 
 fn array<T: Element>(py: Python<'_>, n: usize, count: usize, all: Vec<T>) -> Drawn<'_, T> {

@@ -59,9 +59,10 @@ impl Viewpoint {
         }
         py.detach(|| {
             let balls = ball.chunks_exact_mut(observers * BALL_COLUMNS.len());
-            let views = robots.chunks_exact_mut(observers * slots * ROBOT_COLUMNS.len());
             let size = self.row_size();
-            for (world, (ball, robots)) in balls.zip(views).enumerate() {
+            let of_world = observers * slots * ROBOT_COLUMNS.len();
+            for (world, ball) in balls.enumerate() {
+                let robots = &mut robots[world * of_world..(world + 1) * of_world];
                 let own = world * size..(world + 1) * size;
                 let row = &rows[own.clone()];
                 let rotated = rotated.as_ref().map_or(row, |rotated| &rotated[own]);

@@ -118,12 +118,19 @@ impl VisionTracker {
                 count.saturating_sub(1)
             )));
         };
-        if cos * cos + sin * sin < 1e-6 {
+        let length = f64::from(*cos).hypot(f64::from(*sin));
+        if length.is_nan() || length < 1e-3 {
             return Err(PyValueError::new_err(format!(
                 "robots must have headings of a length above 0, got {cos}, {sin}"
             )));
         }
-        Ok(SeenRobot { robot, position: [*x, *y], heading: [*cos, *sin] })
+        // The square of a long one would be infinite. One of about 1 keeps its bits.
+        let heading = [*cos, *sin].map(|part| {
+            #[expect(clippy::cast_possible_truncation, reason = "at most 1")]
+            let scaled = (f64::from(part) / length) as f32;
+            if (0.5..2.0).contains(&length) { part } else { scaled }
+        });
+        Ok(SeenRobot { robot, position: [*x, *y], heading })
     }
 }
 

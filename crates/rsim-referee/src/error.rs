@@ -31,6 +31,16 @@ pub enum RefereeError {
         /// Number given.
         got: f32,
     },
+    /// A time of the configuration whose steps a row cannot count.
+    #[error("{name}: expected at most {most} s, got {got}")]
+    TooLong {
+        /// Name of the number.
+        name: &'static str,
+        /// Longest time, s.
+        most: f32,
+        /// Time given, s.
+        got: f32,
+    },
     /// A rule that does not exist.
     #[error("off: expected names of {known}, got {name:?}")]
     UnknownRule {

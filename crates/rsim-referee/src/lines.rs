@@ -89,7 +89,8 @@ impl Lines {
     /// The valid place nearest to `place` for a ball that is kicked: at least `from_lines` inside the lines
     /// of the field and at least `from_areas` from both areas.
     pub fn nearest_kick_place(&self, place: Vector, from_lines: f32, from_areas: f32) -> Vector {
-        let (max_x, max_y) = (self.half_length - from_lines, self.half_width - from_lines);
+        let [max_x, max_y] =
+            [self.half_length, self.half_width].map(|half| (half - from_lines).max(0.0));
         let inside = Vector::new(place.x.clamp(-max_x, max_x), place.y.clamp(-max_y, max_y));
         let defender = if inside.x < 0.0 { Team::Blue } else { Team::Yellow };
         if self.distance_to_area(inside, defender) >= from_areas {

@@ -99,7 +99,7 @@ impl<'a> Positions<'a> {
                 if self.moment.config.league == League::Ssl
                     && self.is_penalty_keeper(robot, attacker) =>
             {
-                let half = lines.half_goal_width - self.moment.pitch.robot_radius;
+                let half = (lines.half_goal_width - self.moment.pitch.robot_radius).max(0.0);
                 Vector::new(lines.goal(robot.team).x, wanted.y.clamp(-half, half))
             }
             _ => wanted,

@@ -19,6 +19,9 @@ use crate::statistics::Statistics;
 use crate::team::Team;
 use crate::tracking;
 
+/// Most steps of a time: a row has exact whole numbers below 2^24, and some are sums of two times.
+const MAX_STEPS: f32 = 8_388_608.0;
+
 /// Referee of matches with the same rules, field and robots. It has no state of its own.
 #[derive(Debug, Clone)]
 pub struct Referee {
@@ -46,6 +49,12 @@ impl Referee {
     /// A number or a name in the configuration that cannot be.
     pub fn new(config: RefereeConfig, pitch: Pitch, layout: Layout) -> Result<Self, RefereeError> {
         config.validate()?;
+        for (&(name, unit, _), got) in RefereeConfig::NUMBERS.iter().zip(config.numbers()) {
+            let most = MAX_STEPS * pitch.time_step;
+            if unit == "s" && got > most {
+                return Err(RefereeError::TooLong { name, most, got });
+            }
+        }
         let is_on = |rule: &&Rule| !config.off.iter().any(|name| name == rule.name);
         let rules = rules::of_league(config.league).iter().filter(is_on).collect();
         Ok(Self { config, pitch, layout, rules })

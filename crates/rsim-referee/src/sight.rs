@@ -261,9 +261,12 @@ impl Sight<'_> {
         }
     }
 
-    /// A robot; `None` for one that is absent.
+    /// A robot; `None` for one that is absent, and for an index that no robot has.
     #[inline]
     pub fn robot(&self, index: usize) -> Option<Robot> {
+        if index >= self.layout.robots() {
+            return None;
+        }
         let first = self.layout.ball_size + index * self.layout.robot_size;
         let [x, y, cos, sin, v_x, v_y, v_theta, mouth, ball, opponent, collision_speed, absent] =
             self.layout.robot.map(|place| self.row[first + place]);

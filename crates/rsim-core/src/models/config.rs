@@ -171,6 +171,10 @@ impl SimConfig {
             let expected = "at most 0.005 s: longer ticks are not accurate (docs/physics.md)";
             return Err(ConfigError::Number { name: "tick", expected, got: self.tick });
         }
+        if self.tick < MIN_TICK {
+            let expected = "at least 0.00001 s";
+            return Err(ConfigError::Number { name: "tick", expected, got: self.tick });
+        }
         let ratio = self.time_step / self.tick;
         if !(0.999..1000.0).contains(&ratio) || (ratio - ratio.round()).abs() > 1e-3 {
             return Err(ConfigError::Inconsistent(format!(
@@ -187,6 +191,9 @@ impl SimConfig {
 /// overlap by 25 mm, and a ball at 10 m/s sometimes passes through a spinning robot; in ticks of 5 ms
 /// neither happens.
 const MAX_TICK: f32 = 0.005_000_1;
+
+/// Minimum tick, s. Shorter ones lose the changes of positions to rounding, and a forecast would take for ever.
+const MIN_TICK: f32 = 1e-5;
 
 /// Checks the number of robots of a team against the field's limit. `name` is the argument's name.
 ///

@@ -67,6 +67,9 @@ numbers! {
     }
 }
 
+/// Most robots of a team: those of both teams and the ball have a bit each of 64.
+const MOST_ROBOTS: usize = 31;
+
 impl Field {
     /// All numbers of a field.
     pub fn numbers() -> Vec<Number> {
@@ -104,6 +107,12 @@ impl Field {
     /// [`ConfigError`] with the name of the first wrong number.
     pub fn validate(&self) -> Result<(), ConfigError> {
         check_all(Self::NUMBERS, self)?;
+        if self.max_robots > MOST_ROBOTS {
+            return Err(ConfigError::Inconsistent(format!(
+                "field.max_robots must be at most {MOST_ROBOTS}, got {}",
+                self.max_robots
+            )));
+        }
         if self.goal_width + 2.0 * self.corner_leg.max(self.goal_wall_thickness) >= self.width {
             return Err(ConfigError::Inconsistent(format!(
                 "field.goal_width with field.corner_leg or field.goal_wall_thickness on both sides \

@@ -139,8 +139,12 @@ fn drive(
 ) {
     match (&robot.model.drive, &robot.wheel_map) {
         (Drive::Differential(drive), _) => {
-            let limit = battery * drive.max_wheel_speed;
-            wheels.turn(&mut command[..2], dead_zone / drive.wheel_radius, limit);
+            // A robot clips each of its wheels before the battery slows both.
+            let most = drive.max_wheel_speed;
+            for speed in &mut command[..2] {
+                *speed = speed.clamp(-most, most);
+            }
+            wheels.turn(&mut command[..2], dead_zone / drive.wheel_radius, battery * most);
         }
         (Drive::Omni(drive), Some(map)) => {
             // The robot limits its own speeds before those of its wheels.

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::blocks::{LANES, Lanes, VectorLanes, mask_of_bits, set_bits, smaller};
+use crate::blocks::{LANES, Lanes, VectorLanes, larger, mask_of_bits, set_bits, smaller};
 use crate::geometry::motion::Motion;
 use crate::geometry::motion_block::MotionBlock;
 use crate::math::Vector;
@@ -90,13 +90,15 @@ impl TrackBlock {
         self.unseen.as_mut_array()[lane] = 0.0;
     }
 
-    /// Goes on by `elapsed`, s, with constant velocities.
+    /// Goes on by `elapsed`, s, with constant velocities, until a body has been unseen for [`LOST`].
     pub(super) fn coast(&mut self, elapsed: f32) {
         let elapsed = Lanes::splat(elapsed);
+        let left = larger(Lanes::splat(LOST) - self.unseen, Lanes::ZERO);
+        let MotionBlock { velocity, angular_velocity, .. } = self.motion;
         self.wait(elapsed);
-        let motion = &mut self.motion;
-        motion.position += motion.velocity * elapsed;
-        motion.heading = turned(motion.heading, motion.angular_velocity * elapsed);
+        let (time, motion) = (smaller(elapsed, left), &mut self.motion);
+        motion.position += velocity * time;
+        motion.heading = turned(motion.heading, angular_velocity * time);
     }
 
     /// Goes on by `elapsed`, s, to predicted motions.
@@ -109,15 +111,17 @@ impl TrackBlock {
         motion.heading = before.heading.where_else(lost, motion.heading);
     }
 
-    /// Lets time pass. Returns the mask of the bodies that the frames up to the last one have not shown for long, which
-    /// now stand still.
+    /// Lets time pass. Bodies that no frame has shown for long stand still from now on. Returns the mask of those that the
+    /// frames up to the last one have not shown for long.
     fn wait(&mut self, elapsed: Lanes) -> Lanes {
-        let lost = self.unseen.simd_gt(Lanes::splat(LOST));
+        let limit = Lanes::splat(LOST);
+        let were_lost = self.unseen.simd_gt(limit);
         self.unseen += elapsed;
+        let lost = self.unseen.simd_gt(limit);
         let motion = &mut self.motion;
         motion.velocity = VectorLanes::ZERO.where_else(lost, motion.velocity);
         motion.angular_velocity = lost.bitselect(Lanes::ZERO, motion.angular_velocity);
-        lost
+        were_lost
     }
 
     /// Takes in detections of robots, each the first one at its instant. One that is not expected tells of a push
@@ -335,6 +339,25 @@ mod tests {
         let [other, own] = [0, LANE].map(|lane| track.motion(lane));
         assert!((other.position.x - LOST).abs() < 2.0 * PERIOD && other.velocity == Vector::ZERO);
         assert!((own.position.x - 1.0).abs() < 1e-3 && own.heading.y > 0.99);
+    }
+
+    #[test]
+    fn one_long_gap_is_as_many_short_ones() {
+        let moving = Motion {
+            velocity: Vector::X,
+            angular_velocity: 1.0,
+            ..Motion::at_rest(Vector::ZERO, Vector::X)
+        };
+        for gap in [10.0, 1e30, f32::INFINITY] {
+            let mut track = TrackBlock::new();
+            (0..LANES).for_each(|lane| track.begin(lane, &moving));
+            track.coast(gap);
+            let Motion { position, velocity, heading, angular_velocity } = track.motion(LANE);
+            assert!((position.x - LOST).abs() < 1e-6 && velocity == Vector::ZERO, "{position}");
+            assert!((heading.y - LOST.sin()).abs() < 1e-3 && angular_velocity == 0.0, "{heading}");
+            track.coast(PERIOD);
+            assert_eq!(track.motion(LANE).position, position);
+        }
     }
 
     #[test]

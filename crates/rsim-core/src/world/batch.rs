@@ -234,7 +234,7 @@ impl Batch {
     }
 
     fn header(&self) -> Header {
-        Header::new(self.config(), self.worlds.len())
+        Header::new(self.config(), self.worlds.len(), b"")
     }
 }
 

@@ -169,6 +169,6 @@ impl Forecaster {
     }
 
     fn header(&self) -> Header {
-        Header::new(self.config(), self.commands.len())
+        Header::new(self.config(), self.commands.len(), b"forecaster")
     }
 }

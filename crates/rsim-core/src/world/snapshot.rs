@@ -20,8 +20,10 @@ pub(super) struct Header {
 }
 
 impl Header {
-    pub(super) fn new(config: &SimConfig, worlds: usize) -> Self {
-        Self { config_hash: crc32fast::hash(&encode(config)), worlds: worlds as u64 }
+    /// The header of a kind of snapshots; the kind of a simulator's has no name.
+    pub(super) fn new(config: &SimConfig, worlds: usize, kind: &[u8]) -> Self {
+        let identity = [&encode(config), kind].concat();
+        Self { config_hash: crc32fast::hash(&identity), worlds: worlds as u64 }
     }
 }
 
@@ -56,7 +58,10 @@ pub(super) fn read<T: DeserializeOwned>(header: &Header, bytes: &[u8]) -> Result
     if word(24) != crc32fast::hash(body) {
         return Err(SnapshotError::Damaged("its checksum does not match"));
     }
-    postcard::from_bytes(body).map_err(|_| SnapshotError::Damaged("its contents cannot be read"))
+    match postcard::take_from_bytes(body) {
+        Ok((states, [])) => Ok(states),
+        _ => Err(SnapshotError::Damaged("its contents cannot be read")),
+    }
 }
 
 fn encode(value: &impl Serialize) -> Vec<u8> {

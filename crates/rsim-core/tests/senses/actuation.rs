@@ -54,6 +54,17 @@ fn wheels_have_errors_of_their_own() {
 }
 
 #[test]
+fn a_wheel_beyond_its_limit_is_clipped_as_without_errors() {
+    let turn = |sensing| {
+        let scene = scenes::lone_robot([100.0, 20.0]);
+        Played::new(&scene, sensing, 1, 40).column(Some(0), "v_theta")[39][0][0]
+    };
+    let exact = turn(Sensing { delay: 0.1, ..Sensing::OFF });
+    let nearly = turn(Sensing { wheel_error: 1e-7, ..Sensing::OFF });
+    assert!(exact < -1.0 && (exact - nearly).abs() < 1e-3, "{exact} {nearly}");
+}
+
+#[test]
 fn slow_wheels_stand_in_the_dead_zone() {
     let speed = |wheel: f32| {
         let sensing = Sensing { wheel_dead_zone: 0.05, ..Sensing::OFF };

@@ -2,7 +2,7 @@
 
 use rsim_referee::codes::Command::{DirectFree, ForceStart, NormalStart};
 use rsim_referee::events::EventKind::{
-    AimlessKick, BallLeftFieldGoalLine, BallLeftFieldTouchLine, BoundaryCrossing,
+    AimlessKick, BallLeftFieldGoalLine, BallLeftFieldTouchLine, BoundaryCrossing, InvalidGoal,
 };
 
 use crate::scene::{A, B, Scene, Side, Them, Us, views, views_with};
@@ -290,6 +290,24 @@ fn over_the_walls_behind_the_goals_it_is_a_foul_too() {
         scene.expect_bot(BoundaryCrossing, (Us, 3), (4.5 + BEYOND, 0.5));
         scene.expect_next(DirectFree, Them, (4.3, 2.0));
         scene.expect_fouls(1, 0);
+    }
+}
+
+#[test]
+fn a_ball_that_flies_into_the_goal_meets_its_back() {
+    for mut scene in views(B) {
+        play_out(&mut scene, Us, (2.0, 0.1), (4.3, 0.1));
+        scene.ball_height(0.3);
+        scene.step();
+        scene.ball(4.45, 0.1);
+        scene.ball_height(0.05);
+        scene.settle();
+        scene.ball(4.6, 0.1);
+        scene.ball_height(0.1);
+        scene.ball_velocity(8.0, 0.0, 2.0);
+        scene.step();
+        assert_eq!((scene.count_of(InvalidGoal), scene.count_of(BoundaryCrossing)), (1, 0));
+        scene.expect_fouls(0, 0);
     }
 }
 

@@ -21,7 +21,8 @@ pub fn boundary_crossing(game: &mut Game, moment: &Moment, rulings: &mut Rulings
     let (ball, lines) = (moment.ball, moment.lines());
     let (place, speed, wall) = match line {
         Line::Touch => (ball.position.y, ball.velocity.y, lines.boundary_y),
-        Line::Goal(_) | Line::End(_) => (ball.position.x, ball.velocity.x, lines.boundary_x),
+        Line::End(_) => (ball.position.x, ball.velocity.x, lines.boundary_x),
+        Line::Goal(_) => return, // its back stops the ball, where no goal counts too
     };
     let seconds = (wall - place.abs()).max(0.0) / speed.abs();
     if height_after(&ball, seconds) > moment.config.boundary_height {

@@ -64,7 +64,8 @@ pub(crate) fn way_to_goal(game: &Game, attacker: Team, place: Vector) -> f32 {
 /// Whether the keeper touched the ball and changed its direction by at least 90 degrees.
 fn was_saved(moment: &Moment, defender: Team) -> bool {
     let keeper = moment.now.robot(moment.keeper(defender));
-    keeper.is_some_and(|keeper| keeper.touched_ball)
+    // A team without robots has no keeper.
+    keeper.is_some_and(|keeper| keeper.team == defender && keeper.touched_ball)
         && moment.ball.velocity.dot(moment.ball_before.velocity) <= 0.0
         && moment.ball_before.velocity.length() > moment.config.stuck_speed
 }
