@@ -173,6 +173,6 @@ def test_bodies_do_not_go_on_for_ever_over_a_gap() -> None:
         tracker.take(frame / 60, np.array([[frame / 60, 1.0]], np.float32), seen(0, frame / 60))
     tracker.take(11.0, NO_BALL, NOBODY)
     found = read(tracker)
-    assert found.ball.position[0, 0] == pytest.approx(1.28, abs=0.02)
-    assert found.robots.position[0, 0, 0] == pytest.approx(1.28, abs=0.02)
+    assert found.ball.position[0, 0] == pytest.approx(1.98, abs=0.02)
+    assert found.robots.position[0, 0, 0] == pytest.approx(1.98, abs=0.02)
     assert not found.ball.velocity.any()

@@ -39,6 +39,27 @@ def save(folder: Path, stem: str, **metadata: str) -> Path:
     return folder / f"{stem}.safetensors"
 
 
+def test_equal_networks_have_equal_scores() -> None:
+    """Those that play as `best` and as `best:robust` have been measured alike."""
+    compared = 0
+    for name, path in trained.list_trained("robust").items():
+        best, robust = trained.load_file(SHIPPED[name]), trained.load_file(path)
+        assert isinstance(best, Network)
+        assert isinstance(robust, Network)
+        arrays, others = best.arrays(), robust.arrays()
+        if any(not np.array_equal(array, others.get(key)) for key, array in arrays.items()):
+            continue
+        scores = {
+            (score.opponent, score.metric, score.matches): score.score
+            for score in trained.list_scores(path)
+            if not score.sensing
+        }
+        for score in trained.list_scores(SHIPPED[name]):
+            compared += 1
+            assert scores[score.opponent, score.metric, score.matches] == score.score, name
+    assert compared >= 8
+
+
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Replace the files of the package by one for VSSMulti-v0."""

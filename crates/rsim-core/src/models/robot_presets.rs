@@ -127,7 +127,7 @@ impl RobotModel {
 
     /// ER-Force.
     pub const SSL_ERFORCE: Self =
-        ssl("ssl_erforce", [0.089, 0.138, 1.5], [8.0, 8.0], [0.067, 0.070], Drive::Omni(OMNI));
+        ssl("ssl_erforce", ERFORCE_BODY, [8.0, 8.0], [0.067, 0.070], Drive::Omni(OMNI));
 
     /// `RobôCin`.
     pub const SSL_ROBOCIN: Self =
@@ -180,7 +180,7 @@ impl RobotModel {
     /// [`Self::SSL_ERFORCE`]; a ball touches its dribbler at 0.0855 m and is reported up to 0.0985 m.
     pub const SSL_ERFORCE_SIMULATOR: Self = with_mouth(
         "ssl_erforce_simulator",
-        [0.089, 0.138, 1.5],
+        ERFORCE_BODY,
         0.064,
         Mouth { beam_distance: 0.013, ..mouth([8.0, 8.0], 0.070) },
         Drive::Omni(OmniDrive {
@@ -219,6 +219,9 @@ impl RobotModel {
         find_preset("robot", &Self::PRESETS, |robot| &robot.name, name)
     }
 }
+
+/// Radius, height (m) and mass (kg) of ER-Force's robot.
+const ERFORCE_BODY: [f32; 3] = [0.089, 0.138, 1.5];
 
 /// Free rim speed of a wheel, m/s: the old simulator's robot, 1557 rpm on wheels of 24.75 mm.
 const RIM_SPEED: f32 = rpm(1557.0) * 0.024_75;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::blocks::{LANES, Lanes, VectorLanes, larger, mask_of_bits, set_bits, smaller};
+use crate::blocks::{LANES, Lanes, VectorLanes, mask_of_bits, set_bits, smaller};
 use crate::geometry::motion::Motion;
 use crate::geometry::motion_block::MotionBlock;
 use crate::math::Vector;
@@ -11,6 +11,10 @@ use crate::senses::filter::{Filter, Gains, LONG};
 
 /// Time without a detection after which a body is taken to stand still, s.
 pub(super) const LOST: f32 = 0.3;
+
+/// Time between two frames over which bodies are expected to go on as before, s. Seldom frames, or many that are
+/// lost, need more than [`LOST`]; over longer gaps nothing is known.
+const GAP: f32 = 1.0;
 
 /// Change of the velocity by a push at an unknown instant of an interval, by the mean change over it.
 const PUSH_PART: f32 = 1.5;
@@ -90,15 +94,16 @@ impl TrackBlock {
         self.unseen.as_mut_array()[lane] = 0.0;
     }
 
-    /// Goes on by `elapsed`, s, with constant velocities, until a body has been unseen for [`LOST`].
+    /// Goes on by `elapsed`, s, with constant velocities; at most by [`GAP`], after which bodies stand still.
     pub(super) fn coast(&mut self, elapsed: f32) {
-        let elapsed = Lanes::splat(elapsed);
-        let left = larger(Lanes::splat(LOST) - self.unseen, Lanes::ZERO);
-        let MotionBlock { velocity, angular_velocity, .. } = self.motion;
-        self.wait(elapsed);
-        let (time, motion) = (smaller(elapsed, left), &mut self.motion);
-        motion.position += velocity * time;
-        motion.heading = turned(motion.heading, angular_velocity * time);
+        self.wait(Lanes::splat(elapsed));
+        let time = Lanes::splat(elapsed.min(GAP));
+        let motion = &mut self.motion;
+        motion.position += motion.velocity * time;
+        motion.heading = turned(motion.heading, motion.angular_velocity * time);
+        if elapsed > GAP {
+            (motion.velocity, motion.angular_velocity) = (VectorLanes::ZERO, Lanes::ZERO);
+        }
     }
 
     /// Goes on by `elapsed`, s, to predicted motions.
@@ -111,17 +116,15 @@ impl TrackBlock {
         motion.heading = before.heading.where_else(lost, motion.heading);
     }
 
-    /// Lets time pass. Bodies that no frame has shown for long stand still from now on. Returns the mask of those that the
-    /// frames up to the last one have not shown for long.
+    /// Lets time pass. Returns the mask of the bodies that the frames up to the last one have not shown for long, which
+    /// now stand still.
     fn wait(&mut self, elapsed: Lanes) -> Lanes {
-        let limit = Lanes::splat(LOST);
-        let were_lost = self.unseen.simd_gt(limit);
+        let lost = self.unseen.simd_gt(Lanes::splat(LOST));
         self.unseen += elapsed;
-        let lost = self.unseen.simd_gt(limit);
         let motion = &mut self.motion;
         motion.velocity = VectorLanes::ZERO.where_else(lost, motion.velocity);
         motion.angular_velocity = lost.bitselect(Lanes::ZERO, motion.angular_velocity);
-        were_lost
+        lost
     }
 
     /// Takes in detections of robots, each the first one at its instant. One that is not expected tells of a push
@@ -342,7 +345,7 @@ mod tests {
     }
 
     #[test]
-    fn one_long_gap_is_as_many_short_ones() {
+    fn bodies_do_not_go_on_over_a_long_gap() {
         let moving = Motion {
             velocity: Vector::X,
             angular_velocity: 1.0,
@@ -353,8 +356,8 @@ mod tests {
             (0..LANES).for_each(|lane| track.begin(lane, &moving));
             track.coast(gap);
             let Motion { position, velocity, heading, angular_velocity } = track.motion(LANE);
-            assert!((position.x - LOST).abs() < 1e-6 && velocity == Vector::ZERO, "{position}");
-            assert!((heading.y - LOST.sin()).abs() < 1e-3 && angular_velocity == 0.0, "{heading}");
+            assert!((position.x - GAP).abs() < 1e-6 && velocity == Vector::ZERO, "{position}");
+            assert!((heading.y - GAP.sin()).abs() < 1e-3 && angular_velocity == 0.0, "{heading}");
             track.coast(PERIOD);
             assert_eq!(track.motion(LANE).position, position);
         }
