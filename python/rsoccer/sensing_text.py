@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 
+import numpy as np
+
 from rsoccer._core import Sensing
 
 
@@ -78,5 +80,13 @@ def describe(sensing: Sensing | str) -> str:
     numbers = json.loads(sensing.to_json())
     name = numbers.pop("name")
     preset = json.loads(Sensing.preset(name).to_json()) if name in Sensing.PRESETS else {}
-    changed = [f"{key}={value:g}" for key, value in numbers.items() if preset.get(key) != value]
+    changed = [
+        f"{key}={_digits(value)}" for key, value in numbers.items() if preset.get(key) != value
+    ]
     return ", ".join(changed if name == "none" and changed else [name, *changed])
+
+
+def _digits(value: float) -> str:
+    """A number of senses, float32, in as many digits as it needs to be read again."""
+    text = f"{value:g}"
+    return text if np.float32(text) == np.float32(value) else f"{value:.9g}"

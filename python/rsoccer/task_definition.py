@@ -180,7 +180,8 @@ class TaskDefinition(ABC):
         """Return the bounds of observation blocks by name.
 
         A block is clipped to [-bound, bound]. The bound of other blocks is
-        `rsoccer.observation_layout.DEFAULT_LIMIT`.
+        `rsoccer.observation_layout.DEFAULT_LIMIT`. Names are those of the blocks that the task
+        observes with its options.
         """
         return {}
 

@@ -204,8 +204,14 @@ def test_a_program_that_is_always_late_is_told_so() -> None:
     wait(link, 0.25)
     with pytest.raises(RuntimeError, match=r"vision_timeout: expected commands within 0\.2 s"):
         advance(connection, 0.025)
-    patient = connected(CONFIG, ServerLink(referee="off"), "ssl-simulation", vision_timeout=1.0)
+    link = ServerLink(referee="off")
+    patient = connected(CONFIG, link, "ssl-simulation", vision_timeout=1.0)
     patient.begin()
+    for _ in range(MAX_LATE_STEPS):
+        wait(link, 0.25)
+        advance(patient, 0.025)
+    assert not patient.counts["vision: late"]
+    assert link.frame.robots.velocity[0, 0, 0] > 0.5
 
 
 def test_robots_stop_when_the_frames_stand_still() -> None:

@@ -250,6 +250,7 @@ def test_copies_keep_groups_that_got_one_object_in_two_changes() -> None:
     policy = Seeing(0.3)
     for robot in ("yellow_0", "yellow_1"):
         env.matches.change_controllers({robot: policy})
+    policy.speed = 0.1
     other = copy.deepcopy(env)
     env.step(np.zeros(2, np.float32))
     other.step(np.zeros(2, np.float32))

@@ -47,7 +47,9 @@ def test_equal_networks_have_equal_scores() -> None:
         assert isinstance(best, Network)
         assert isinstance(robust, Network)
         arrays, others = best.arrays(), robust.arrays()
-        if any(not np.array_equal(array, others.get(key)) for key, array in arrays.items()):
+        if arrays.keys() != others.keys():
+            continue
+        if not all(np.array_equal(array, others[key]) for key, array in arrays.items()):
             continue
         scores = {
             (score.opponent, score.metric, score.matches): score.score

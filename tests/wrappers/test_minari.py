@@ -9,6 +9,7 @@ import pytest
 import rsoccer
 from rsoccer import cli
 from rsoccer.datasets import record_episodes, save_minari
+from tests.simulators import Blind
 
 minari = pytest.importorskip("minari")
 
@@ -77,6 +78,20 @@ def test_matches_that_differ_have_no_common_environment() -> None:
     ]
     save_minari(NAME, episodes, task)
     assert minari.load_dataset(NAME).env_spec is None
+
+
+def test_a_sensor_model_that_is_an_object_has_no_environment() -> None:
+    task = rsoccer.make_task("VSS-v0", max_steps=5)
+    save_minari(NAME, record_episodes("ou", task, 1, sensing=Blind()), task)
+    assert minari.load_dataset(NAME).env_spec is None
+
+
+def test_senses_of_the_environment_are_those_of_the_matches_to_the_last_digit() -> None:
+    task = rsoccer.make_task("VSS-v0", max_steps=5)
+    sensing = rsoccer.Sensing("rc2021", delay=0.033333333)
+    save_minari(NAME, record_episodes("ou", task, 1, sensing=sensing), task)
+    matches = minari.load_dataset(NAME).recover_environment().unwrapped.matches
+    assert matches.sensing == sensing
 
 
 def test_discrete_tasks_are_refused() -> None:

@@ -61,7 +61,7 @@ def run_benchmark(
         ImportError: a "module:name" that does not exist.
         TypeError: an argument of the wrong type.
         ValueError: a task that is not part of the benchmark, too few matches, a policy that plays
-            none of the tasks, or an entry that differs in policy, protocol or physics.
+            none of the tasks, or an entry that differs in policy, protocol, physics or machine.
     """
     check_policy_like("policy", policy)
     chosen = _checked(tasks)
@@ -110,6 +110,8 @@ def _continued(begun: Entry, new: Entry, name: str | None) -> Entry:
     """The begun entry, if the new one would go on with it."""
     for field in ("policy", "digest", "matches", "seed", "versions", "machine"):
         before, now = getattr(begun, field), getattr(new, field)
+        if field == "machine":  # the number of cores changes no result
+            before, now = ({**each, "cores": 0} for each in (before, now))
         if before != now:
             why = "; the policy has changed since" if field == "digest" else ""
             raise ValueError(

@@ -89,10 +89,11 @@ def record_episodes(
 
     Raises:
         TypeError: an argument of the wrong type.
-        ValueError: a number out of range, or a policy that does not fit the task.
+        ValueError: a number out of range, a policy that does not fit the task, or a discrete task.
     """
     check_policy_like("policy", policy)
     task = as_task(task)
+    check_continuous(task)
     checks.integer("matches", matches, 1)
     checks.integer("seed", seed, 0)
     checks.integer("worlds", worlds, 1)
@@ -124,6 +125,19 @@ def record_episodes(
             for episode in recorded.episodes(name_of(policy), world, first)
         ]
     return episodes
+
+
+def check_continuous(task: Task) -> None:
+    """Refuse a discrete task: episodes have the rows of its table as actions, and no indices.
+
+    Args:
+        task: the task.
+
+    Raises:
+        ValueError: it is discrete.
+    """
+    if task.action_table is not None:
+        raise ValueError(f"task: expected continuous actions, got {task.name} with discrete ones")
 
 
 def _senses(matches: Matches) -> str:

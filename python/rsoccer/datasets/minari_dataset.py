@@ -11,10 +11,11 @@ import gymnasium
 import numpy as np
 
 from rsoccer._core import build_info
-from rsoccer.datasets.episodes import LearnerEpisode
+from rsoccer.datasets.episodes import LearnerEpisode, check_continuous
 from rsoccer.policies import is_registered
 from rsoccer.randomization import written
 from rsoccer.registry import as_task, options_of
+from rsoccer.sources import make_sensing
 from rsoccer.spaces import observation_space
 from rsoccer.task import Task
 from rsoccer.view import SIDES
@@ -63,8 +64,7 @@ def save_minari(
             f"episodes: expected observations and actions of {task.layout.size} and "
             f"{task.action_size} numbers, as {task.name} has, got {sorted(sizes) or 'no episode'}"
         )
-    if task.action_table is not None:
-        raise ValueError(f"task: expected continuous actions, got {task.name} with discrete ones")
+    check_continuous(task)
     if dataset_id in minari.list_local_datasets():
         raise ValueError(f"dataset_id: expected a new one, got {dataset_id!r}, which exists")
     policies = ", ".join(dict.fromkeys(part.policy for part in episodes))
@@ -124,17 +124,30 @@ def _spec(
     options = options_of(task)
     if options is None or not np.all([isinstance(v, str | float | int) for v in options.values()]):
         return None
+    conditions = _conditions(episodes)
+    if conditions is None:
+        return None
+    given: dict[str, Any] = {**options, **conditions}
+    return gymnasium.make(name, **given).spec if given else gymnasium.spec(name)
+
+
+def _conditions(episodes: Sequence[LearnerEpisode]) -> dict[str, Any] | None:
+    """Arguments of an environment with the conditions of all episodes; None if there is none."""
     first = episodes[0]
     conditions = [(each.opponent, each.sensing, each.randomization) for each in episodes]
     if any(each != conditions[0] for each in conditions):
         return None
-    given: dict[str, Any] = dict(options)
+    given: dict[str, Any] = {}
     if first.opponent:
         if not is_registered(first.opponent):
             return None
         given["controllers"] = {SIDES[1]: first.opponent}
     if first.sensing:
+        try:
+            make_sensing(first.sensing)
+        except (ImportError, TypeError, ValueError):
+            return None  # a model that was an object, by the name of its class
         given["sensing"] = first.sensing
     if first.randomization:
         given["randomization"] = written(first.randomization)
-    return gymnasium.make(name, **given).spec if given else gymnasium.spec(name)
+    return given

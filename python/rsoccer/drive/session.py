@@ -146,7 +146,8 @@ class Session:
 
         Raises:
             ConnectionError: there are no frames for `Settings.patience`.
-            RuntimeError: the simulator refuses all commands, or the guard has ended.
+            RuntimeError: the simulator refuses all commands, the guard has ended, or this program
+                is late in many steps in a row.
         """
         outcome = self.matches.step(self._actions)
         if outcome.episodes is not None:

@@ -102,7 +102,8 @@ class NetworkStepper(Stepper, Reader, SensingStepper, Closer):
 
         Raises:
             ConnectionError: there are no frames for `Settings.patience`.
-            RuntimeError: the simulator refuses all commands, or the guard has ended.
+            RuntimeError: the simulator refuses all commands, the guard has ended, or this program
+                is late in many steps in a row.
         """
         if active is not None and not active[0]:
             return np.array([self.connection.sight.clock.now])

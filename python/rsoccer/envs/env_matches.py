@@ -12,7 +12,7 @@ import numpy as np
 
 from rsoccer.arrays import Array, Floats
 from rsoccer.controllers import Controllers, resolve
-from rsoccer.frame import Frame
+from rsoccer.frame import Frame, team_of
 from rsoccer.matches import Matches
 from rsoccer.policies import Policy
 from rsoccer.sources import is_shared
@@ -40,6 +40,7 @@ class EnvMatches(Matches):
         seed = secrets.randbits(63) if seed is None else seed
         super().__init__(task, worlds, seed, **settings)
         self._settings = settings
+        self._has_other_policies = False  # than the settings
         self._closed = False
 
     def close(self) -> None:
@@ -65,11 +66,17 @@ class EnvMatches(Matches):
             controllers: policies by robot, team or "all", for robots that do not learn.
         """
         super().change_controllers(controllers)
+        # Teams go on as they do, also where the new policies expect no forecast.
+        self._settings = {**self._settings, "forecasting": self.forecasting}
+        self._has_other_policies = True
+
+    def _present_settings(self) -> dict[str, Any]:
+        """Arguments for new matches with the policies that play now."""
+        if not self._has_other_policies:
+            return self._settings
         before: Controllers = self._settings.get("controllers") or {}
         by_robot = resolve(self.task, {**resolve(self.task, before), **_policies_by_robot(self)})
-        # Teams go on as they do, also where the new policies expect no forecast.
-        kept = {"controllers": by_robot, "forecasting": self.forecasting}
-        self._settings = {**self._settings, **kept}
+        return {**self._settings, "controllers": by_robot}
 
     def with_seed(self, seed: int) -> EnvMatches:
         """Return new matches with the same arguments and another seed.
@@ -77,7 +84,7 @@ class EnvMatches(Matches):
         Args:
             seed: seed of the first match, at least 0.
         """
-        matches = EnvMatches(self.task, self.worlds, seed, **self._settings)
+        matches = EnvMatches(self.task, self.worlds, seed, **self._present_settings())
         matches._start_rows = self._start_rows
         return matches
 
@@ -126,7 +133,8 @@ class EnvMatches(Matches):
                 f"{simulator!r}"
             )
         state = None if self.fresh else self.state_dict()
-        return _resumed, (self.task, self.worlds, self._settings, state, self._start_rows)
+        settings = self._present_settings()
+        return _resumed, (self.task, self.worlds, settings, state, self._start_rows)
 
 
 class SeededCopies:
@@ -182,11 +190,17 @@ def _policies_by_robot(matches: Matches) -> dict[str, Policy]:
     Robots that share an object are one group in new matches, but groups stay apart if their
     policies have been changed to one: each has its own streams and memory.
     """
-    robots, used, policies = matches.task.robots, set[int](), dict[str, Policy]()
+    robots, policies = matches.task.robots, dict[str, Policy]()
+    used = set[tuple[int, str]]()
     for group in matches.assignment.groups:
-        policy = copy.copy(group.policy) if id(group.policy) in used else group.policy
-        used.add(id(policy))
-        policies |= {robots[robot]: policy for robot in group.robots}
+        policy, names = group.policy, [robots[robot] for robot in group.robots]
+        # A policy that looks has a group for each team anyway where teams know different states.
+        is_divided = matches.play.teams_differ and policy.observes != "nothing"
+        key = id(policy), team_of(names[0]) if is_divided else ""
+        if key in used:
+            policy = copy.copy(policy)
+        used.add(key)
+        policies |= dict.fromkeys(names, policy)
     return policies
 
 

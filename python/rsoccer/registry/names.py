@@ -27,6 +27,8 @@ _NAME: Final = re.compile(r"[A-Za-z][A-Za-z0-9_]*-v[0-9]+")
 def is_redefined(before: object, now: object) -> bool:
     """Return whether code that was defined before has been defined anew: in a notebook, say.
 
+    Lambdas and what functions make cannot be told apart by their names, so they are others.
+
     Args:
         before: class or function.
         now: another one.
@@ -35,7 +37,10 @@ def is_redefined(before: object, now: object) -> bool:
     def place(each: object) -> tuple[object, object]:
         return getattr(each, "__module__", None), getattr(each, "__qualname__", None)
 
-    return type(before) is type(now) and None not in place(now) and place(before) == place(now)
+    module, name = place(now)
+    if type(before) is not type(now) or module is None or "<" in str(name):
+        return False
+    return place(before) == (module, name)
 
 
 def register(name: str, task_class: type[Task]) -> None:

@@ -48,6 +48,9 @@ class SslPass(Ssl):
     ball in the mouth of blue_0. With `n_opponents`, that many yellow robots at random positions at
     least 1 m from blue ones, with random headings; they follow the policy `opponent`.
 
+    Reward terms that are not of single robots are those of blue; learners of yellow get the
+    negatives.
+
     A pass counts as `rsoccer.rules.Passes` defines it: the ball leaves the passer by 0.25 m, and
     rolls or flies at least 1.5 m from there, untouched, into the break beam of the other robot.
     """

@@ -1,6 +1,7 @@
 // The live page: the last seconds of a match as a short replay whose frames move up.
 
 const RETRY = 1000; // milliseconds until the page asks for the match again
+const FULL = 1013; // code with which a server closes whose page too many watch
 
 const $ = (id) => document.getElementById(id);
 
@@ -58,16 +59,16 @@ function push(columns, numbers, frames) {
 }
 
 /** Watch; a server that comes back may serve another match, whose page is loaded anew. */
-function connect(live, isAgain = false) {
+function connect(live, isGone = false) {
   const socket = new WebSocket(`ws://${window.location.host}/frames`);
   socket.onopen = () => {
-    if (isAgain && live.received) window.location.reload();
+    if (isGone) window.location.reload();
   };
   socket.onmessage = (event) => live.add(JSON.parse(event.data));
   socket.onclose = (event) => {
     $("message").textContent = event.reason || "The server is gone";
     $("message").hidden = false;
-    setTimeout(() => connect(live, true), RETRY);
+    setTimeout(() => connect(live, isGone || event.code !== FULL), RETRY);
   };
 }
 
