@@ -190,7 +190,7 @@ def test_an_episode_begins_with_new_frames_after_a_pause() -> None:
     assert not connection.counts["vision: late"]
 
 
-def test_a_program_that_is_always_late_is_told_so() -> None:
+def test_a_program_that_is_always_late_ends_with_the_reason() -> None:
     link = ServerLink(referee="off")
     connection = connected(CONFIG, link, "ssl-simulation")
     connection.begin()

@@ -27,7 +27,7 @@ _NAME: Final = re.compile(r"[A-Za-z][A-Za-z0-9_]*-v[0-9]+")
 def is_redefined(before: object, now: object) -> bool:
     """Return whether code that was defined before has been defined anew: in a notebook, say.
 
-    Lambdas and what functions make cannot be told apart by their names, so they are others.
+    Lambdas, and what functions make, have names that do not tell them apart, so they are others.
 
     Args:
         before: class or function.
