@@ -34,10 +34,10 @@ def script_of(task: Task, team: str | None = None) -> str:
         task: the task that is played.
         team: "blue" or "yellow", the team in which it plays; None for that of the first learner.
     """
-    takes = task.learners == "takers" if isinstance(task, SslKeepaway) else False
-    if isinstance(task, SslKeepaway) and (takes if team is None else team == SIDES[1]):
-        return TAKER_SCRIPT
-    if isinstance(task, SslKeepaway | SslPass):
+    if isinstance(task, SslKeepaway):
+        takes = task.learners == "takers" if team is None else team == SIDES[1]
+        return TAKER_SCRIPT if takes else KEEPER_SCRIPT
+    if isinstance(task, SslPass):
         return KEEPER_SCRIPT
     return MATCH_SCRIPT if isinstance(task, Match) else SCRIPTS[task.config.robots[0].drive]
 

@@ -32,6 +32,17 @@ def advance(connection: Connection, seconds: float, commands: np.ndarray = FORWA
     connection.advance(commands, connection.sight.clock.now + seconds)
 
 
+def driving() -> tuple[Connection, ServerLink, list[str]]:
+    """Return a connection whose robots have driven for a while, its link and its events to come."""
+    link = ServerLink(referee="off")
+    events: list[str] = []
+    connection = connected(CONFIG, link, "ssl-simulation")
+    connection.on_event.append(events.append)
+    connection.begin()
+    advance(connection, 0.3)
+    return connection, link, events
+
+
 def speeds(messages: list[Message]) -> list[float]:
     """Greatest speed in each message to a team."""
     found = []
@@ -86,12 +97,7 @@ def test_robots_are_driven_and_stand_before_and_after() -> None:
 
 
 def test_robots_stop_without_vision_and_go_on_with_new_commands_alone() -> None:
-    link = ServerLink(referee="off")
-    events: list[str] = []
-    connection = connected(CONFIG, link, "ssl-simulation")
-    connection.on_event.append(events.append)
-    connection.begin()
-    advance(connection, 0.3)
+    connection, link, events = driving()
     heard, link.heard = link.heard, set()
     sent = len(link.messages)
 
@@ -155,12 +161,7 @@ def test_robots_that_wait_for_the_others_stand() -> None:
 
 
 def test_a_program_that_was_late_goes_on_with_new_frames_alone() -> None:
-    link = ServerLink(referee="off")
-    events: list[str] = []
-    connection = connected(CONFIG, link, "ssl-simulation")
-    connection.on_event.append(events.append)
-    connection.begin()
-    advance(connection, 0.3)
+    connection, link, events = driving()
     sent = len(link.messages)
     wait(link, 3.0)
     begun = link.now
@@ -175,10 +176,7 @@ def test_a_program_that_was_late_goes_on_with_new_frames_alone() -> None:
 
 
 def test_an_episode_begins_with_new_frames_after_a_pause() -> None:
-    link = ServerLink(referee="off")
-    connection = connected(CONFIG, link, "ssl-simulation")
-    connection.begin()
-    advance(connection, 0.3)
+    connection, link, _ = driving()
     wait(link, 3.0)
     connection.begin()
     assert connection.sight.clock.now == pytest.approx(link.now - 100.0, abs=0.05)

@@ -57,7 +57,6 @@ def record(server: Server, path: Path | str) -> Iterator[None]:
         ValueError: another suffix, or a log of a match of another league.
     """
     path = Path(path)
-    is_log = path.name.endswith((".log", f".log{COMPRESSED_SUFFIX}"))
     if path.suffix == SUFFIX:
         if not path.resolve().parent.is_dir():
             raise ValueError(f"record: expected a folder that exists, got {path}")
@@ -71,7 +70,7 @@ def record(server: Server, path: Path | str) -> Iterator[None]:
             server.listeners.remove(recorder)
             recorder.replay().save(path)
         return
-    if not is_log:
+    if not path.name.endswith((".log", f".log{COMPRESSED_SUFFIX}")):
         raise ValueError(f"record: expected a name ending in .rsr, .log or .log.gz, got {path}")
     if server.session.settings.league != "ssl":
         raise ValueError(f"record: expected a replay (.rsr) of a match of VSSS, got {path}")

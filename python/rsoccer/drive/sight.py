@@ -122,20 +122,23 @@ class Sight(ABC):
     @property
     def in_sight(self) -> Mask:
         """(robots,) robots that were seen, and believed, not long before the newest frame."""
-        identities = (self.layout.identity(slot) for slot in range(self.layout.config.n_robots))
-        return np.array([identity in self._recent for identity in identities], np.bool_)
+        return np.array([identity in self._recent for identity in self._identities], np.bool_)
 
     @property
     def strangers(self) -> list[Identity]:
         """Team and number, on the wire, of robots in sight that the match does not have."""
-        known = {self.layout.identity(slot) for slot in range(self.layout.config.n_robots)}
-        return sorted(self._recent - known)
+        return sorted(self._recent - set(self._identities))
 
     @property
     def stranger_places(self) -> Doubles:
         """(k, 2) places of the `strangers` in the package, m."""
         places = [self._places[identity] for identity in self.strangers]
         return self.layout.rotated(np.array(places, np.float64).reshape(-1, 2))
+
+    @property
+    def _identities(self) -> list[Identity]:
+        """Team and number, on the wire, of the robots of the match, by slot."""
+        return [self.layout.identity(slot) for slot in range(self.layout.config.n_robots)]
 
     def numbers(self, team: int) -> list[int]:
         """Return the uniform numbers that are in sight.
@@ -172,7 +175,7 @@ class Sight(ABC):
 
     def _note(self, named: Iterable[Named], slots: Iterable[int], time: float) -> None:
         """Note robots of others as they are named, and those of the match that are believed."""
-        known = {self.layout.identity(slot) for slot in range(self.layout.config.n_robots)}
+        known = self._identities
         strangers = {identity: place for identity, place in named if identity not in known}
         self._places.update(strangers)
         believed = [self.layout.identity(slot) for slot in slots]
