@@ -202,13 +202,12 @@ $(VENV)/tools: pyproject.toml constraints.txt $(VENV)/made
 $(VENV)/built: $(VENV)/tools $(RUST)
 	@echo "building rSoccer and downloading its dependencies (torch alone may be 3 GB)"
 	@if [ -f $(VENV)/torch.pth ]; then cp $(VENV)/torch.pth $(VENV)/lib/python3*/site-packages/; fi
-# The build starts in parallel to the downloads. When pip calls the compiler, the build is complete
-# or pip waits for it, and the compiler repeats its messages. Two builds that end at the same moment
-# move the library both, so a second try follows.
+# The package is built while its dependencies are downloaded. pip then builds it again, which is done at once,
+# and shows the messages of a build that failed.
 	@PATH="$(CURDIR)/$(BIN):$$PATH"; export PATH; \
 	maturin develop --release --skip-install >/dev/null 2>&1 & \
-	install() { $(PIP) --no-build-isolation --editable '.[all]'; }; \
-	install || { wait; install; }; status=$$?; wait; exit $$status
+	$(PIP) --no-build-isolation --only-deps '.[all]'; status=$$?; wait; \
+	[ $$status = 0 ] && $(PIP) --no-build-isolation --no-deps --editable .
 	@touch $@
 
 # These see the packages of .venv, and have own ones beside them.

@@ -119,7 +119,7 @@ def policy_of(algorithm: Algorithm, args: argparse.Namespace) -> Network:
         algorithm,
         settings.make_task(),
         module="main",
-        action_repeat=settings.rollout.action_repeat,
+        action_repeat=settings.play_action_repeat,
         shield=settings.network.shield,
     )
 

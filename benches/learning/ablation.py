@@ -14,6 +14,8 @@ PAPER: Final = "paper"
 OURS: Final = "ours"
 OPPONENTS: Final = ("ou", "zero")
 """Opponents of the evaluation; the first is the paper's."""
+AS_TRAINED: Final = {"network.play_action_repeat": None}
+"""Policies decide as often as in their training, whose rate is one of the changes."""
 
 
 @dataclass(frozen=True)
@@ -91,7 +93,7 @@ def experiments(task: str, samples: int, seeds: int) -> tuple[Experiment, ...]:
     """
 
     def experiment(name: str, text: str, parts: Iterable[Change]) -> Experiment:
-        settings = {"samples": samples, **merged(task, parts)}
+        settings = {"samples": samples, **AS_TRAINED, **merged(task, parts)}
         return Experiment(
             GROUP, name, task, settings=settings, seeds=seeds, opponents=OPPONENTS, text=text
         )

@@ -47,6 +47,8 @@ ROLLING: Final = {"SSL": [0.15, 0.35], "VSS": [0.1, 0.2]}
 """Rolling deceleration of the ball by league, m/s^2; the models have .26 and .14."""
 HISTORY: Final = 5
 """Observations in a stacked one: its actions are those of the last two decisions, 150 ms."""
+AS_TRAINED: Final = {"network.play_action_repeat": None}
+"""One rate of decisions in all trainings and plays, so that senses alone differ."""
 FORECAST: Final = {"forecast": 1.0}
 """Number of `Sensing` for policies behind the forecaster."""
 HAS_FORECASTER: Final = hasattr(Sensing(), "forecast")
@@ -83,7 +85,7 @@ def experiments(seeds: int) -> tuple[Experiment, ...]:
     """
     found: list[Experiment] = []
     for task, samples in SAMPLES.items():
-        recommended = {**recommended_settings(task), "samples": samples}
+        recommended = {**recommended_settings(task), **AS_TRAINED, "samples": samples}
         with_variation = {**SENSES, "randomization": varied(task)}
         settings = {
             "truth": {},

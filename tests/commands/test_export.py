@@ -35,6 +35,36 @@ def test_files_are_named_after_the_policy(
     assert Network.load("best-robust-VSS-v0.safetensors").metadata == best.metadata
 
 
+def test_a_policy_is_written_with_another_rate_of_decisions(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name, repeat in (("a.safetensors", "5"), ("a.onnx", "4")):
+        form = ["--onnx"] if name.endswith(".onnx") else []
+        arguments = ["best", "--task", "SSLGoToBall-v0", "--action-repeat", repeat, "--out", name]
+        assert cli.main(["export", *arguments, *form]) == 0
+    best, written = policies.make_policy("best", "SSLGoToBall-v0"), Network.load("a.safetensors")
+    assert isinstance(best, Network)
+    assert (best.action_repeat, written.action_repeat) == (3, 5)
+    assert OnnxPolicy.load("a.onnx").action_repeat == 4
+    assert all((written.arrays()[name] == array).all() for name, array in best.arrays().items())
+    changed = {"action_repeat": "5"}  # its scores are not known
+    assert {**written.metadata, "scores": best.metadata["scores"]} == best.metadata | changed
+    assert "scores" not in written.metadata
+    assert (
+        cli.main(["export", "a.safetensors", "--action-repeat", "5", "--out", "b.safetensors"]) == 0
+    )
+    assert Path("b.safetensors").read_bytes() == Path("a.safetensors").read_bytes()
+    for wrong, words in (("0", "action_repeat: expected at least 1"), ("1000001", "at most")):
+        assert words in error(
+            ["a.safetensors", "--action-repeat", wrong, "--out", "c.safetensors"], capsys
+        )
+    assert "with learned tactics, which decides in every control step" in error(
+        ["best", "--task", "SSLMatch-v0", "--action-repeat", "2"], capsys
+    )
+    assert not Path("c.safetensors").exists()
+
+
 def test_learned_tactics_are_written_as_a_policy_file(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -124,6 +124,12 @@ class Args:
         """True if another simulator plays, one match at a time: training is all that is played."""
         return plays_one_match(self.simulator)
 
+    @property
+    def play_action_repeat(self) -> int:
+        """Control steps for which the saved policy holds a decision."""
+        chosen = self.network.play_action_repeat
+        return self.rollout.action_repeat if chosen is None else chosen
+
     @classmethod
     def for_task(cls, task: str, **changes: Any) -> Self:  # noqa: ANN401  (any field)
         """Return the recommended settings for a task, with changes.

@@ -33,6 +33,9 @@ _VSSS: Final[dict[str, Any]] = {
     # Twice as much is learned from a sample at first. In the end VSSMulti-v0 is a little better,
     # VSSSelfPlay-v0 is not.
     "ppo.mirror_augmentation": True,
+    # Exploring needs actions that last. A policy that has learned so plays better if it decides
+    # more often: docs/learning-tried.md has the scores.
+    "network.play_action_repeat": 2,
 }
 """Settings of all VSSS tasks."""
 
@@ -76,9 +79,14 @@ TASK_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
         "opponents.fixed": {"ou": 2.0, "scripted": 2.0, "chase": 1.0},
     },
     # Nothing was found that makes the policy of VSSSelfPlay-v0 better in matches.
-    "VSSMatch-v0": {**_TEAM, "network.initial_policy": "VSSSelfPlay-v0"},
+    "VSSMatch-v0": {
+        **_TEAM,
+        "network.play_action_repeat": 1,
+        "network.initial_policy": "VSSSelfPlay-v0",
+    },
     "VSSSelfPlay-v0": {
         **_TEAM,
+        "network.play_action_repeat": 1,
         "samples": 20 * M,
         # Opponents that stand still or defend well are rare in self-play, and a policy that never
         # met them draws against them.

@@ -48,6 +48,15 @@ def test_a_policy_file_holds_action_repeat_and_action_std(finished: Path) -> Non
     )
 
 
+def test_a_saved_policy_may_decide_at_another_rate_than_in_training(
+    finished: Path, tmp_path: Path
+) -> None:
+    policy = Network.load(train(tiny(tmp_path, play_action_repeat=1)))
+    usual = Network.load(finished / "policy.safetensors")
+    assert (policy.action_repeat, usual.action_repeat) == (1, 3)
+    assert all((policy.arrays()[name] == array).all() for name, array in usual.arrays().items())
+
+
 def test_a_policy_file_names_the_task_by_its_registered_name(tmp_path: Path) -> None:
     name = (
         "SSLGoToBallIR-v0"  # an alias with six opponents; `task.name` is of the task without them

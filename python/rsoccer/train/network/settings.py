@@ -33,9 +33,10 @@ class NetworkSettings:
     """blocks read as 0 in ablations, as in shot opponents:2,3"""
     initial_policy: str | None = None
     """policy whose weights it begins with: best, a policy file, or another task for its best"""
-
     shield: str | None = None
     """vsss keeps robots from fouls of VSSS, in training and play"""
+    play_action_repeat: Count | None = None
+    """control steps for which the saved policy holds a decision; None is as in training"""
 
     def __post_init__(self) -> None:
         """Convert and check the values."""

@@ -258,13 +258,13 @@ class Trainer:
             )
 
     def network(self) -> Network:
-        """Return the current policy in NumPy."""
+        """Return the current policy in NumPy, as it is saved and measured."""
         args, (mean, std) = self.args, self.collector.obs_rms.as_float32()
         network = self.model.export(
             self.task,
             mean,
             std,
-            args.rollout.action_repeat,
+            args.play_action_repeat,
             args.history,
             args.task,
             args.task_options,
