@@ -35,3 +35,23 @@ def test_the_demo_writes_policies_metrics_and_pictures(
     for name in ("policy.safetensors", "curve.png", "match.mp4", "match.html"):
         assert (tmp_path / name).stat().st_size > 1000
         assert str(tmp_path / name) in printed
+
+
+def test_the_command_line_explains_itself_and_refuses_other_words(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Formerly `--help` trained for a minute."""
+    for package in ("torch", "pygame", "imageio_ffmpeg", "matplotlib"):
+        pytest.importorskip(package)
+    demo: Any = importlib.import_module("rsoccer.demo")
+    folders: list[Path] = []
+    monkeypatch.setattr(demo, "demo", folders.append)
+    for words, status in ((["--help"], 0), (["--samples", "1"], 2)):
+        with pytest.raises(SystemExit) as stopped:
+            demo.main(words)
+        assert stopped.value.code == status
+    assert "--out" in capsys.readouterr().out
+    assert not folders
+    demo.main([])
+    demo.main(["--out", "elsewhere"])
+    assert folders == [Path("out/demo"), Path("elsewhere")]

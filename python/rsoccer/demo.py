@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import argparse
 import json
 import sys
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final
 
@@ -91,5 +92,19 @@ def _metrics(
     }
 
 
+def main(words: Sequence[str] | None = None) -> None:
+    """Run the demonstration.
+
+    Args:
+        words: words of the command line; None for those of the process.
+    """
+    description = __doc__.split("\n")[0]
+    parser = argparse.ArgumentParser("python -m rsoccer.demo", description=description)
+    parser.add_argument(
+        "--out", type=Path, default=Path("out/demo"), help="folder for all files (%(default)s)"
+    )
+    demo(parser.parse_args(words).out)
+
+
 if __name__ == "__main__":
-    demo(Path("out/demo"))
+    main()
