@@ -1,12 +1,12 @@
 """Starts that every policy loses at once: a bound on the score against an opponent.
 
-    python -m benches.learning --again --group ppo --only VSSMulti --only VSSSelfPlay
+    python -m benches.learning --again --group ppo --only VSSSelfPlay
     python -m benches.learning.running.lost_starts
 
 The first command learns the policies that are not in `out/learning`.
 
 A start is a random state, and in some the opponent has the ball in front of the empty goal. The
-study's policies for whole teams and the scripts play the same starts. What all of them lose within
+study's policies of the task and the scripts play the same starts. What all of them lose within
 2 s is hardly a matter of skill, and a policy that wins all other matches scores 1 - 2 * share.
 """
 
@@ -34,8 +34,8 @@ from rsoccer.task import LEARN
 from rsoccer.view import SIDES
 
 TASK: Final = "VSSSelfPlay-v0"
-EXPERIMENTS: Final = ("ppo/VSSSelfPlay-v0", "ppo/VSSMulti-v0")
-"""Experiments whose policies play whole teams."""
+EXPERIMENTS: Final = ("ppo/VSSSelfPlay-v0",)
+"""Experiments whose policies have learned to play the task's teams."""
 SCRIPTS: Final = ("chase", "scripted")
 OPPONENTS: Final = ("chase", "scripted")
 SECONDS: Final = 2.0
@@ -96,8 +96,7 @@ def runs_of(folders: Folders) -> dict[str, str]:
     if not found:
         raise FileNotFoundError(
             f"expected policies of {', '.join(EXPERIMENTS)} in {folders.work}, got none; "
-            "`python -m benches.learning --again --group ppo --only VSSMulti --only VSSSelfPlay` "
-            "learns them"
+            "`python -m benches.learning --again --group ppo --only VSSSelfPlay` learns them"
         )
     return found
 

@@ -45,12 +45,13 @@ def test_wrong_experiments_are_refused() -> None:
 
 def test_the_ablation_goes_from_all_changes_to_none() -> None:
     experiments = {e.name: e for e in ablation.experiments("VSS-v0", 1000, 3)}
-    assert experiments["ours"].settings == {"samples": 1000}
+    ours = {"samples": 1000, **ablation.AS_TRAINED}
+    assert experiments["ours"].settings == ours
     paper = dict(experiments["paper"].settings)
     assert paper["ppo.gamma"] == 0.95
     assert {"opponents:2,3", "shot"} <= set(paper["network.masked_observations"])
     assert "ppo.gamma" not in experiments["paper+discount"].settings
-    assert experiments["ours-discount"].settings == {"samples": 1000, "ppo.gamma": 0.95}
+    assert experiments["ours-discount"].settings == {**ours, "ppo.gamma": 0.95}
     with_headings = experiments["paper+headings"].settings["network.masked_observations"]
     assert set(paper["network.masked_observations"]) - set(with_headings) == {"opponents:2,3"}
     for experiment in experiments.values():
