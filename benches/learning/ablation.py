@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Final
 
-from benches.learning.experiments import Experiment
+from benches.learning.experiments import AS_TRAINED, Experiment
 from rsoccer.train.task_settings import recommended_settings
 
 GROUP: Final = "ablation"
@@ -14,8 +14,6 @@ PAPER: Final = "paper"
 OURS: Final = "ours"
 OPPONENTS: Final = ("ou", "zero")
 """Opponents of the evaluation; the first is the paper's."""
-AS_TRAINED: Final = {"network.play_action_repeat": None}
-"""Policies decide as often as in their training, whose rate is one of the changes."""
 
 
 @dataclass(frozen=True)

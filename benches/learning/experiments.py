@@ -11,6 +11,8 @@ PPO: Final = "ppo"
 SB3: Final = ("ddpg", "sac")
 CLONES: Final = "clones"
 ALGORITHMS: Final = (PPO, *SB3, CLONES)
+AS_TRAINED: Final = {"network.play_action_repeat": None}
+"""Policies decide as often as in their training, so that their rate is no second difference."""
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Final
 
-from benches.learning.experiments import CLONES, Experiment
+from benches.learning.experiments import AS_TRAINED, CLONES, Experiment
 from rsoccer import Sensing
 from rsoccer.benchmark.conditions import CONDITIONS
 from rsoccer.benchmark.protocol import opponents_of
@@ -47,8 +47,6 @@ ROLLING: Final = {"SSL": [0.15, 0.35], "VSS": [0.1, 0.2]}
 """Rolling deceleration of the ball by league, m/s^2; the models have .26 and .14."""
 HISTORY: Final = 5
 """Observations in a stacked one: its actions are those of the last two decisions, 150 ms."""
-AS_TRAINED: Final = {"network.play_action_repeat": None}
-"""One rate of decisions in all trainings and plays, so that senses alone differ."""
 FORECAST: Final = {"forecast": 1.0}
 """Number of `Sensing` for policies behind the forecaster."""
 HAS_FORECASTER: Final = hasattr(Sensing(), "forecast")

@@ -43,8 +43,8 @@ class Network(HeldActions):
     In mode "sample" each decision is drawn from the distribution of the training, with the random
     stream of each world. Mode "mean" is deterministic: the mean of a Gaussian, the most likely one
     of discrete choices. A robot may then stay stuck where noise would free it. With `action_repeat`
-    k the network decides at every k-th control step and holds its action in between, as in
-    training. With a `history` it stacks its last observations and actions itself, so it plays
+    k the network decides at every k-th control step and holds its action in
+    between. With a `history` it stacks its last observations and actions itself, so it plays
     wherever a network without one does.
 
     Matrix products are not bit-equal between batch sizes, so actions differ by about 1e-6 between

@@ -3,7 +3,7 @@ from dataclasses import replace
 import pytest
 
 from benches.learning import ablation, conditions
-from benches.learning.experiments import Experiment, Study
+from benches.learning.experiments import AS_TRAINED, Experiment, Study
 from benches.learning.ppo_settings import NOT_COMPARED, SELF_PLAY_ONLY, defaults
 from benches.learning.table import STUDY
 from rsoccer.train import Args
@@ -45,7 +45,7 @@ def test_wrong_experiments_are_refused() -> None:
 
 def test_the_ablation_goes_from_all_changes_to_none() -> None:
     experiments = {e.name: e for e in ablation.experiments("VSS-v0", 1000, 3)}
-    ours = {"samples": 1000, **ablation.AS_TRAINED}
+    ours = {"samples": 1000, **AS_TRAINED}
     assert experiments["ours"].settings == ours
     paper = dict(experiments["paper"].settings)
     assert paper["ppo.gamma"] == 0.95

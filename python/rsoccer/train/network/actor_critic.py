@@ -150,13 +150,13 @@ class ActorCritic(nn.Module):
         task_name: str,
         task_options: Mapping[str, Any],
     ) -> Network:
-        """Return a copy of the current policy that plays in NumPy as it plays in training.
+        """Return a copy of the current policy that plays in NumPy.
 
         Args:
             task: the task it is trained on.
             mean: (o,) mean of the observations.
             std: (o,) standard deviation of the observations.
-            action_repeat: control steps per decision.
+            action_repeat: control steps for which the copy holds a decision.
             history: observations in a stacked one.
             task_name: registered name of the task, or an alias.
             task_options: options of the task, JSON values by name.
