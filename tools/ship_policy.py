@@ -9,6 +9,11 @@ the policy `best` of its task. The policy of a run with `sensing`, such as a dis
 `python -m tools.ship_policy --behind-forecast VSSSelfPlay-v0` makes `best` of a task its
 `best:robust`, too: the same weights, behind a forecast.
 
+`python -m tools.ship_policy --value out/critic` adds the value network of a run to the policies of
+its task that have the weights that the run began with, `best` and perhaps `best:robust`: a run with
+`network.initial_policy` "best" whose value network alone has learned (`ppo.critic_warmup`). With it
+they play as `best:lookahead`, too.
+
 `python -m tools.ship_policy --again` measures policies that are in the package once more, after a
 change of the physics: their weights stay.
 """
@@ -18,11 +23,15 @@ import json
 import shlex
 import tempfile
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 
+import numpy as np
+
 import rsoccer
 from rsoccer import checks
+from rsoccer.arrays import Floats
 from rsoccer.benchmark.protocol import opponents_of
 from rsoccer.evaluate import Evaluation, evaluate, table
 from rsoccer.evaluate.results import MIN_PER_SIDE
@@ -30,7 +39,7 @@ from rsoccer.files import write_atomically
 from rsoccer.policies import trained, training_conditions
 from rsoccer.policies.evolved import Evolved
 from rsoccer.policies.network import Network
-from rsoccer.policies.policy_file import SUFFIX, Score, scores_text
+from rsoccer.policies.policy_file import SUFFIX, VALUE, Score, scores_text
 from rsoccer.sensing_text import describe
 from rsoccer.task import Task
 from rsoccer.train.args import CHANGEABLE_ON_RESUME, SETTINGS_FILE
@@ -56,13 +65,18 @@ def main() -> None:
         "--again", nargs="*", metavar="TASK", help="measure shipped policies again; all by default"
     )
     parser.add_argument("--behind-forecast", metavar="TASK", help="ship `best` as `best:robust`")
+    parser.add_argument("--value", type=Path, metavar="RUN", help="add the value network of a run")
     parser.add_argument("--opponents", nargs="*", help="policies of the other team")
     parser.add_argument("--starts", type=int, default=STARTS, help="starts for each side")
     parser.add_argument("--threads", type=int, help="threads of the simulator")
     arguments = parser.parse_args()
-    given = (arguments.run, arguments.again, arguments.behind_forecast)
+    given = (arguments.run, arguments.again, arguments.behind_forecast, arguments.value)
     if sum(value is not None for value in given) != 1:
-        parser.error("expected one of a run, --again and --behind-forecast")
+        parser.error("expected one of a run, --again, --behind-forecast and --value")
+    if arguments.value is not None:
+        for path in add_value(arguments.value):
+            print(f"{path}: {path.stat().st_size / 1024:.1f} KiB")
+        return
     if arguments.again is not None:
         for name in arguments.again or shipped():
             measure_again(name, arguments.starts, arguments.threads)
@@ -152,6 +166,60 @@ def ship_behind_forecast(
         network.save(candidate, half_precision=True)
         _put(candidate, path)
     return path
+
+
+def add_value(run: Path) -> list[Path]:
+    """Add the value network of a run to the policies of the package with the run's weights.
+
+    Args:
+        run: folder of a run that began with `best` of its task and changed its value network alone.
+
+    Returns:
+        The files that have it now.
+
+    Raises:
+        ValueError: a run without a value network, or one that no policy of the package has been
+            the beginning of.
+    """
+    network = Network.load(run / f"policy{SUFFIX}")
+    if network.value is None:
+        raise ValueError(f"value: expected a run with a value network, got {run}")
+    changed = []
+    for variant in (None, trained.ROBUST):
+        path = trained.list_trained(variant).get(network.task_name)
+        policy = None if path is None else Network.load(path)
+        if path is None or policy is None or not _same_play(policy, network):
+            continue
+        layers = _for_normalization(network.value.layers, network, policy)
+        policy.value = replace(network.value, layers=layers)
+        policy.metadata[VALUE] = policy.value.text
+        with tempfile.TemporaryDirectory() as folder:
+            candidate = Path(folder) / path.name
+            policy.save(candidate, half_precision=True)
+            _put(candidate, path)
+        changed.append(path)
+    if not changed:
+        raise ValueError(
+            f"value: expected a run that began with a policy of the package, got {run}"
+        )
+    return changed
+
+
+def _same_play(policy: Network, other: Network) -> bool:
+    """Whether both act alike but for their normalization: they have the same later layers."""
+    if len(policy.layers) != len(other.layers):
+        return False
+    pairs = zip(policy.layers[1:], other.layers[1:], strict=True)
+    return all(np.array_equal(a, b) for one, two in pairs for a, b in zip(one, two, strict=True))
+
+
+def _for_normalization(
+    layers: list[tuple[Floats, Floats]], old: Network, new: Network
+) -> list[tuple[Floats, Floats]]:
+    """The same network for observations as another policy normalizes them."""
+    (weight, bias), *others = layers
+    scale, shift = new.std / old.std, (new.mean - old.mean) / old.std
+    return [(weight * scale, bias + weight @ shift), *others]
 
 
 def _save(policy: Shipped, path: Path) -> None:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from rsoccer import checks
 from rsoccer._core import SimConfig
-from rsoccer.arrays import Array, Floats
+from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.frame import team_of
 from rsoccer.policies import make_policy
 from rsoccer.policies.base import CommandPolicy, MatchState, Memory, Policy, PolicyInput
@@ -50,19 +50,22 @@ class PolicyGroup:
         """Find a slice of the robots, which is faster than indices."""
         self._written = _slice_if_possible(self.robots)
 
-    def act(self, play: Play, observations: Floats, actions: Floats) -> None:
+    def act(
+        self, play: Play, observations: Floats, actions: Floats, playing: Mask | None = None
+    ) -> None:
         """Write the actions of the group's robots.
 
         Args:
             play: current state of all worlds.
             observations: (n, observers, o) current observations.
             actions: (n, robots, action) output, clipped to [-1, 1]; other robots' rows stay.
+            playing: (n,) worlds whose actions matter; None for all.
 
         Raises:
             ValueError: the policy returned actions of another shape.
         """
         shape = (len(actions), len(self.robots), actions.shape[2])
-        inputs = self._inputs(play, observations, shape)
+        inputs = self._inputs(play, observations, shape, playing)
         chosen = inputs.completed(self.policy.act(inputs, self.rng, self.memory))
         if chosen.shape != shape:
             raise ValueError(
@@ -89,13 +92,20 @@ class PolicyGroup:
         name = f"{type(self.policy).__name__}.commands"
         commands[:, self.robots] = checks.floats(name, chosen, converted.shape)
 
-    def _inputs(self, play: Play, observations: Floats, shape: tuple[int, int, int]) -> PolicyInput:
+    def _inputs(
+        self,
+        play: Play,
+        observations: Floats,
+        shape: tuple[int, int, int],
+        playing: Mask | None = None,
+    ) -> PolicyInput:
         """Input of the policy: view and observations of its robots, as far as it observes."""
         view = observed = match = None
         if self.policy.observes != "nothing":
             view = play.sensed_view.select(self.observer_indices)
             known = play.known_to_robots(self.robots)
-            match = MatchState(known.rows, play.game, self.robots, play.threads, self.config)
+            game, threads, config = play.game, play.threads, self.config
+            match = MatchState(known.rows, game, self.robots, threads, config, playing)
         if self.policy.observes == "observation":
             observed = observations[:, self.observer_indices]
         return PolicyInput(shape, view, observed, self.optional_actions, match)

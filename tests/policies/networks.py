@@ -39,6 +39,20 @@ def network_parts(**extra: str) -> tuple[Arrays, Metadata]:
     return arrays, {**metadata, **extra}
 
 
+VALUE_NUMBERS = '{"discount": 0.95, "action_repeat": 3, "reward_std": 2.0}'
+
+
+def with_value(arrays: Arrays, metadata: Metadata) -> tuple[Arrays, Metadata]:
+    """The same parts with those of a value network."""
+    rng = np.random.default_rng(1)
+    arrays["value.0.weight"] = rng.normal(size=(HIDDEN, OBSERVATION)).astype(np.float32)
+    arrays["value.0.bias"] = rng.normal(size=HIDDEN).astype(np.float32)
+    arrays["value.1.weight"] = rng.normal(size=(1, HIDDEN)).astype(np.float32)
+    arrays["value.1.bias"] = rng.normal(size=1).astype(np.float32)
+    metadata["value"] = VALUE_NUMBERS
+    return arrays, metadata
+
+
 def network_for(task: Task) -> Network:
     """A network that fits a task; its mean actions are 0, with a standard deviation of 0.4."""
     arrays = {

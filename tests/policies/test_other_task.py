@@ -12,6 +12,7 @@ from rsoccer.history import ObservationStack
 from rsoccer.policies import make_policy
 from rsoccer.policies.network import Network
 from rsoccer.policies.other_task import fitted
+from rsoccer.policies.policy_file import Value
 from rsoccer.task import Task
 from rsoccer.train.network import initial_policy
 
@@ -75,6 +76,23 @@ def test_numbers_that_both_tasks_have_act_alike(
     found = other.mean_actions(new)
     np.testing.assert_allclose(found[:, : policy.action_size], wanted, atol=1e-5)
     assert (found[:, policy.action_size :] == 0.0).all()
+
+
+def test_the_value_network_is_taken_along() -> None:
+    source, task = rsoccer.make_task("VSSSelfPlay-v0"), rsoccer.make_task("VSSMatch-v0")
+    plain, rng = best("VSSSelfPlay-v0"), np.random.default_rng(0)
+    weights = rng.normal(size=(1, source.layout.size)).astype(np.float32)
+    value = Value([(weights, np.ones(1, np.float32))], 0.95, 3, 2.0)
+    policy = Network.from_layers(source, plain.layers, mean=plain.mean, std=plain.std, value=value)
+    old: Floats = np.tile(policy.mean, (5, 1))
+    new = rng.normal(size=(5, task.layout.size)).astype(np.float32)
+    for before, after in common(source, task):
+        values = rng.normal(size=(5, before.size)).astype(np.float32)
+        old[:, before.ravel()], new[:, after.ravel()] = values, values
+    other = fitted(policy, task)
+    np.testing.assert_allclose(other.values(new), policy.values(old), rtol=1e-4, atol=1e-4)
+    assert other.value is not None
+    assert other.value.text == value.text
 
 
 def test_a_history_is_taken_along_with_each_of_its_parts() -> None:

@@ -13,16 +13,19 @@ from tests.policies.networks import (
     ACTION,
     HIDDEN,
     OBSERVATION,
+    VALUE_NUMBERS,
     Arrays,
     Metadata,
     network_parts,
+    random_observations,
+    with_value,
 )
 
 Corruption = Callable[[Arrays, Metadata], object]
 
 
 def test_saving_and_loading_keeps_everything(tmp_path: Path) -> None:
-    arrays, metadata = network_parts(action_repeat="3")
+    arrays, metadata = with_value(*network_parts(action_repeat="3"))
     arrays["action_std"] = np.full(ACTION, 0.5, np.float32)
     network = Network(arrays, metadata)
     network.save(tmp_path / "policy.safetensors")
@@ -30,6 +33,8 @@ def test_saving_and_loading_keeps_everything(tmp_path: Path) -> None:
     assert loaded.metadata == network.metadata
     assert loaded.action_repeat == 3
     assert loaded.task_name == "VSSSelfPlay-v0"
+    assert loaded.value is not None
+    assert loaded.value.text == metadata["value"]
     assert {name: array.tobytes() for name, array in loaded.arrays().items()} == {
         name: array.tobytes() for name, array in network.arrays().items()
     }
@@ -179,6 +184,58 @@ CORRUPTIONS: dict[str, tuple[Corruption, str]] = {
         "layers.1.weight.*NaN",
     ),
 }
+
+
+VALUE_CORRUPTIONS: dict[str, tuple[Corruption, str]] = {
+    "no numbers": (lambda arrays, metadata: metadata.pop("value"), "'value' should be a JSON"),
+    "no layers": (
+        lambda arrays, metadata: [arrays.pop(name) for name in list(arrays) if "value" in name],
+        "'value' needs the arrays of a value network",
+    ),
+    "a discount above 1": (
+        lambda arrays, metadata: metadata.update(value=VALUE_NUMBERS.replace("0.95", "1.01")),
+        "discount .above 0, at most 1.",
+    ),
+    "a fraction of a control step": (
+        lambda arrays, metadata: metadata.update(value=VALUE_NUMBERS.replace("3", "2.5")),
+        "action_repeat .1 or more.",
+    ),
+    "a number that is missing": (
+        lambda arrays, metadata: metadata.update(value='{"discount": 0.95}'),
+        "'value' should be a JSON object",
+    ),
+    "no number": (
+        lambda arrays, metadata: metadata.update(value=VALUE_NUMBERS.replace("2.0", "NaN")),
+        "reward_std .above 0.",
+    ),
+    "another observation": (
+        lambda arrays, metadata: arrays.update(
+            {"value.0.weight": np.zeros((HIDDEN, 3), np.float32)}
+        ),
+        "value network should take 5 numbers and give 1, got 3 and 1",
+    ),
+    "a missing bias": (lambda arrays, metadata: arrays.pop("value.1.bias"), "value.1.bias"),
+}
+
+
+@pytest.mark.parametrize(("corrupt", "message"), VALUE_CORRUPTIONS.values(), ids=VALUE_CORRUPTIONS)
+def test_invalid_value_networks_are_refused(corrupt: Corruption, message: str) -> None:
+    arrays, metadata = with_value(*network_parts())
+    assert Network(arrays, dict(metadata)).value is not None
+    corrupt(arrays, metadata)
+    with pytest.raises(ValueError, match=message):
+        Network(arrays, metadata)
+
+
+def test_values_are_those_of_the_layers() -> None:
+    arrays, metadata = with_value(*network_parts())
+    observations = random_observations()
+    x = np.clip((observations - arrays["mean"]) / arrays["std"], -10.0, 10.0)
+    x = np.tanh(x @ arrays["value.0.weight"].T + arrays["value.0.bias"])
+    wanted = (x @ arrays["value.1.weight"].T + arrays["value.1.bias"])[..., 0]
+    np.testing.assert_allclose(Network(arrays, metadata).values(observations), wanted, atol=1e-5)
+    with pytest.raises(ValueError, match="expected a policy with a value network"):
+        Network(*network_parts()).values(observations)
 
 
 @pytest.mark.parametrize(("corrupt", "message"), CORRUPTIONS.values(), ids=CORRUPTIONS)

@@ -97,7 +97,7 @@ def test_the_mode_may_follow(folder: Path) -> None:
         policy = policies.make_policy(f"best:{mode}", task)
         assert isinstance(policy, Network)
         assert policy.mode == mode
-    expected = r"best: expected one of \('sample', 'mean', 'robust'\).*'0.5'"
+    expected = r"best: expected one of \('sample', 'mean', 'lookahead', 'robust'\).*'0.5'"
     with pytest.raises(ValueError, match=expected):
         policies.make_policy("best:0.5", task)
 
@@ -169,7 +169,9 @@ def test_robust_policies_have_files_of_their_own(folder: Path) -> None:
         policy = policies.make_policy(name, rsoccer.make_task("SSLGoToBall-v0"))
         assert isinstance(policy, Network)
         assert (float(policy.clip), policy.mode) == (7.0, mode)
-    with pytest.raises(ValueError, match=r"best: expected one of \('sample', 'mean'\).*'0.5'"):
+    with pytest.raises(
+        ValueError, match=r"best: expected one of \('sample', 'mean', 'lookahead'\).*'0.5'"
+    ):
         policies.make_policy("best:robust:0.5", rsoccer.make_task("SSLGoToBall-v0"))
 
 

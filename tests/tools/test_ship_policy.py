@@ -12,11 +12,20 @@ import rsoccer
 from rsoccer import cli
 from rsoccer.commands import train as train_command
 from rsoccer.policies import make_policy, trained
+from rsoccer.policies.lookahead import Lookahead
 from rsoccer.policies.network import Network
-from rsoccer.train import Args, NetworkSettings, train
+from rsoccer.train import Args, NetworkSettings, PpoSettings, train
 from tests.policies.networks import network_for
 from tests.train.one_update import one_update
-from tools.ship_policy import MAX_SIZE, command_of, options_of, ship, ship_behind_forecast, shipped
+from tools.ship_policy import (
+    MAX_SIZE,
+    add_value,
+    command_of,
+    options_of,
+    ship,
+    ship_behind_forecast,
+    shipped,
+)
 
 
 @pytest.fixture
@@ -113,6 +122,34 @@ def test_the_best_policy_becomes_the_robust_one_behind_a_forecast(folder: Path) 
     assert [score.sensing for score in scores] == ["", "rc2021, forecast=1"]
     with pytest.raises(ValueError, match=r"name: expected one of \['VSS-v0'\], got 'SSLMatch-v0'"):
         ship_behind_forecast("SSLMatch-v0")
+
+
+def test_a_value_network_is_added_for_the_normalization_of_the_policy(
+    folder: Path, tmp_path: Path
+) -> None:
+    source = Network.load(train(one_update("VSSSelfPlay-v0", tmp_path / "a")))
+    critic = replace(
+        one_update("VSSSelfPlay-v0", tmp_path / "b"),
+        network=NetworkSettings(hidden_sizes=(8,), initial_policy=str(tmp_path / "a.safetensors")),
+        ppo=PpoSettings(n_epochs=1, n_minibatches=1, critic_warmup=9),
+    )
+    source.value = None
+    source.metadata.pop("value")
+    for name in ("a.safetensors", "trained/VSSSelfPlay-v0.safetensors"):
+        source.save(tmp_path / name, half_precision=True)
+    run = Network.load(train(critic))
+    assert add_value(tmp_path / "b") == [folder / "VSSSelfPlay-v0.safetensors"]
+    task = rsoccer.make_task("VSSSelfPlay-v0")
+    best = trained.load_best_network(task)
+    assert best.metadata.keys() == {*source.metadata, "value"}
+    observations = np.random.default_rng(0).normal(size=(20, task.layout.size)).astype(np.float32)
+    wanted = run.values(observations)
+    assert np.abs(wanted).max() > 0.01
+    assert not np.array_equal(run.mean, best.mean)
+    np.testing.assert_allclose(best.values(observations), wanted, atol=0.02)
+    assert isinstance(make_policy("best:lookahead", task), Lookahead)
+    with pytest.raises(ValueError, match="value: expected a run that began with a policy of the p"):
+        add_value(tmp_path / "a")
 
 
 @pytest.mark.parametrize("name", shipped())

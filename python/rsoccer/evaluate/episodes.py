@@ -285,7 +285,8 @@ class LearnerPolicy:
             view = play.sensed_view.select(indices)
             known = play.known_to_robots(robots)
             config = self._matches.task.config
-            match = MatchState(known.rows, play.game, robots, play.threads, config)
+            playing = ~self._matches.done
+            match = MatchState(known.rows, play.game, robots, play.threads, config, playing)
         if self._policy.observes == "observation":
             own = observations if is_whole else observations[:, team.agents]
         optional = self._matches.task.optional_action_size

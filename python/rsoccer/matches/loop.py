@@ -619,7 +619,7 @@ class Matches:
             groups = self.assignment.groups
             paused = PausedWorlds(self._waited, self.play, groups, self._observations)
         active = ~self._done if paused else None
-        self._act(actions)
+        self._act(actions, active)
         if self.history > 1:
             self._remember(actions, active)
         self._move(active)
@@ -634,14 +634,14 @@ class Matches:
         self._autoreset(outcome)
         return outcome
 
-    def _act(self, actions: Floats) -> None:
+    def _act(self, actions: Floats, active: Mask | None) -> None:
         """Let all controllers act, and convert their actions to commands."""
         play, all_actions = self.play, actions
         if self.assignment.groups:
             all_actions = np.empty_like(play.actions)
             all_actions[:, self.assignment.written] = actions
         for group in self.assignment.groups:
-            group.act(play, self._observations, all_actions)
+            group.act(play, self._observations, all_actions, active)
         commands = self.task.get_commands(play, all_actions)
         play.commands = result_checks.commands(commands, play.commands.shape)
         for group in self._commanding:

@@ -6,6 +6,7 @@
 | --- | --- | --- |
 | `best` | any | the trained policy of the task, where the package has one |
 | `best:robust` | any | the one for late and noisy senses, on some tasks |
+| `best:lookahead` | VSSS | `best`, which tries actions in a model of the match |
 | `zero` | any | stands still |
 | `uniform` | any | independent uniform random actions |
 | `ou` | any | actions of an Ornstein-Uhlenbeck process |
@@ -27,20 +28,19 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from rsoccer.policies import names
 from rsoccer.policies.base import Policy, PolicyInput
-from rsoccer.policies.names import list_policies, list_policies_with_skill, register_policy
+from rsoccer.policies.names import (
+    LOOKAHEAD,
+    list_policies,
+    list_policies_with_skill,
+    register_policy,
+)
 from rsoccer.policies.own_code import is_module_text, make_from_module
 from rsoccer.policies.policy_file import ONNX_SUFFIX, SUFFIX, SUFFIXES
 from rsoccer.registry import as_task, make_task
 from rsoccer.task import Task
-
-if TYPE_CHECKING:
-    from rsoccer.policies.evolved import Evolved
-    from rsoccer.policies.network import Network
-    from rsoccer.policies.onnx_policy import OnnxPolicy
 
 __all__ = ["Policy", "PolicyInput", "list_policies", "list_policies_with_skill"]
 __all__ += ["PolicyLike", "check_policy_like", "file_of", "is_module_text", "is_registered"]
@@ -88,7 +88,8 @@ def make_policy(policy: PolicyLike, task: Task | str) -> Policy:
             "best" is the trained policy of the task, see `rsoccer.policies.trained`.
             "best:robust" is the one for late and noisy senses. "scripted:0.5"
             sets a skill. "policy.safetensors:mean", "best:sample" and "best:robust:mean" choose
-            how a network acts; the default is as in training.
+            how a network acts; the default is as in training. "best:lookahead" tries actions in a
+            model of the match, see `rsoccer.policies.lookahead`.
         task: the task that is played, or its name.
 
     Returns:
@@ -191,11 +192,12 @@ def _text(policy: str | os.PathLike[str]) -> str:
     return os.fspath(policy)
 
 
-def _make_best(task: Task, detail: str | None) -> Network | Evolved:
+def _make_best(task: Task, detail: str | None) -> Policy:
     """The trained policy of a task."""
-    from rsoccer.policies.trained import load_best
+    from rsoccer.policies.trained import load_best, load_lookahead, variant_of_lookahead
 
-    return load_best(task, detail)
+    variant = variant_of_lookahead(detail)
+    return load_best(task, detail) if variant is None else load_lookahead(task, variant or None)
 
 
 def file_of(policy: str) -> Path | None:
@@ -209,12 +211,14 @@ def file_of(policy: str) -> Path | None:
     return Path(_split_mode(policy)[0])
 
 
-def _load(text: str, task: Task | None = None) -> Network | OnnxPolicy | Evolved:
+def _load(text: str, task: Task | None = None) -> Policy:
     """A trained policy from its path, which a mode may follow."""
     path, mode = _split_mode(text)
     if not (path.endswith(SUFFIXES) or os.path.isfile(path)):
         raise ValueError(f"unknown policy {text!r}: {_expected(path)}")
     # Scripts do not need the formats of files.
+    if mode == LOOKAHEAD:
+        return _load_lookahead(path, task)
     if path.endswith(ONNX_SUFFIX):
         from rsoccer.policies.onnx_policy import OnnxPolicy
 
@@ -222,6 +226,18 @@ def _load(text: str, task: Task | None = None) -> Network | OnnxPolicy | Evolved
     from rsoccer.policies.trained import load_file
 
     return load_file(Path(path), mode, task)
+
+
+def _load_lookahead(path: str, task: Task | None) -> Policy:
+    """The network of a policy file, with a lookahead."""
+    from rsoccer.policies.lookahead import Lookahead
+    from rsoccer.policies.network import Network
+
+    network = Network.load(path)
+    try:
+        return Lookahead(network, make_task(network.task_name) if task is None else task)
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from error
 
 
 def _expected(path: str) -> str:
@@ -243,5 +259,5 @@ def _split_mode(text: str) -> tuple[str, str | None]:
     path, colon, mode = text.rpartition(":")
     if not colon or os.path.exists(text) or text.endswith(SUFFIXES):
         return text, None
-    known = mode in MODES or path.endswith(SUFFIXES)
+    known = mode in (*MODES, LOOKAHEAD) or path.endswith(SUFFIXES)
     return (path, mode) if known else (text, None)

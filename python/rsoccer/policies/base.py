@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rsoccer._core import SimConfig, Threads
-from rsoccer.arrays import Array, Floats
+from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.game import Game
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
@@ -35,6 +35,8 @@ class MatchState:
     """Threads that may share the work."""
     config: SimConfig
     """Field, ball and robots."""
+    playing: Mask | None = None
+    """(n,) worlds that play on, where others have ended and ignore actions; None for all."""
 
     def take(self, worlds: NDArray[np.intp]) -> "MatchState":
         """Return a copy of some worlds.
@@ -42,7 +44,8 @@ class MatchState:
         Args:
             worlds: (k,) indices of worlds.
         """
-        return replace(self, rows=self.rows[worlds], game=self.game.take(worlds))
+        playing = None if self.playing is None else self.playing[worlds]
+        return replace(self, rows=self.rows[worlds], game=self.game.take(worlds), playing=playing)
 
 
 @dataclass

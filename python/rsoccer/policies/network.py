@@ -24,6 +24,7 @@ from rsoccer.registry import as_task, options_of
 if TYPE_CHECKING:
     from rsoccer._core import Sensing
     from rsoccer.policies.layers import Layers
+    from rsoccer.policies.policy_file import Value
     from rsoccer.policies.torch_network import TorchNetwork
     from rsoccer.randomization import Ranges
     from rsoccer.rng import WorldRng
@@ -78,6 +79,7 @@ class Network(HeldActions):
         self.layers = policy_file.read_layers(arrays)
         self.mean, self.std = policy_file.read_normalizer(arrays, self.observation_size)
         self.head = policy_file.read_head(arrays, self.metadata, len(self.layers[-1][1]))
+        self.value = policy_file.read_value(arrays, self.metadata, self.observation_size)
         self._activation = activation_of(self.activation)
         self.stack = policy_file.read_stack(self.metadata, self.observation_size, self.action_size)
         self.shield = policy_file.read_shield(self.metadata)
@@ -110,6 +112,7 @@ class Network(HeldActions):
         sensing: SensingSource | None = None,
         randomization: Ranges | None = None,
         shield: str | None = None,
+        value: Value | None = None,
     ) -> Self:
         """Return a network of weights that another program has trained.
 
@@ -143,6 +146,8 @@ class Network(HeldActions):
             randomization: numbers that each episode of the training drew; a note, too.
             shield: "vsss" to change actions against rules of VSSS, see
                 `rsoccer.policies.shield`; None for none.
+            value: the value network of the training, with which `rsoccer.policies.lookahead` plays;
+                None without one.
 
         Raises:
             TypeError: neither a task nor its name, or something else than layers.
@@ -187,6 +192,8 @@ class Network(HeldActions):
             metadata["task_options"] = json.dumps(encoded, sort_keys=True)
         metadata |= training_conditions.written(sensing, randomization)
         metadata |= {} if shield is None else {"shield": shield}
+        metadata |= {} if value is None else {policy_file.VALUE: value.text}
+        arrays |= {} if value is None else value.arrays()
         network = cls(arrays, metadata)
         network.check_fits(task, task.layout.size)
         return network
@@ -272,24 +279,39 @@ class Network(HeldActions):
                 f"the network takes observations of {self.observation_size} numbers, "
                 f"got {observations.shape[-1]}"
             )
-        flat = observations.reshape(-1, self.observation_size)
-        outputs = np.empty((len(flat), self.head.outputs), np.float32)
-        rows = self._rows_per_product()
-        for first in range(0, len(flat), rows):
-            outputs[first : first + rows] = self._forward(flat[first : first + rows])
-        return outputs.reshape(*observations.shape[:-1], self.head.outputs)
+        return self._outputs_of(self.layers, observations)
 
-    def _forward(self, observations: Floats) -> Floats:
+    def values(self, observations: Floats) -> Floats:
+        """Return the discounted returns that robots expect, in `value.reward_std`, (...).
+
+        Args:
+            observations: (..., o) observations, stacked with a history.
+
+        Raises:
+            ValueError: a policy without a value network.
+        """
+        if self.value is None:
+            raise ValueError(f"expected a policy with a value network, got one of {self.task_name}")
+        values: Floats = self._outputs_of(self.value.layers, observations)[..., 0]
+        return values
+
+    def _outputs_of(self, layers: list[tuple[Floats, Floats]], observations: Floats) -> Floats:
+        """Outputs of the policy or of the value network, (..., outputs)."""
+        flat, size = observations.reshape(-1, observations.shape[-1]), len(layers[-1][1])
+        outputs = np.empty((len(flat), size), np.float32)
+        # More rows would use further threads, which spin on other cores.
+        rows = max(16, SINGLE_THREAD_SIZE // max(weight.size for weight, _ in layers))
+        for first in range(0, len(flat), rows):
+            outputs[first : first + rows] = self._forward(layers, flat[first : first + rows])
+        return outputs.reshape(*observations.shape[:-1], size)
+
+    def _forward(self, layers: list[tuple[Floats, Floats]], observations: Floats) -> Floats:
         hidden = np.clip((observations - self.mean) / self.std, -self.clip, self.clip)
-        for weight, bias in self.layers[:-1]:
+        for weight, bias in layers[:-1]:
             hidden = self._activation(hidden @ weight.T + bias)
-        weight, bias = self.layers[-1]
+        weight, bias = layers[-1]
         outputs: Floats = hidden @ weight.T + bias
         return outputs
-
-    def _rows_per_product(self) -> int:
-        """Rows whose products use one thread; further threads would spin on other cores."""
-        return max(16, SINGLE_THREAD_SIZE // max(weight.size for weight, _ in self.layers))
 
     def check_fits(self, task: Task, observation_size: int) -> None:
         """Raise ValueError for a task with other observations or actions."""
@@ -311,6 +333,7 @@ class Network(HeldActions):
         for index, (weight, bias) in enumerate(self.layers):
             named[f"layers.{index}.weight"] = weight
             named[f"layers.{index}.bias"] = bias
+        named |= {} if self.value is None else self.value.arrays()
         return {name: np.ascontiguousarray(array).copy() for name, array in named.items()}
 
     @classmethod

@@ -8,6 +8,7 @@ A run of the trainer may begin with it, and `best` plays a match with it.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -76,13 +77,18 @@ def fitted(policy: Network, task: Task) -> Network:
     first[:, to_columns] = weight[:, from_columns]
     mean, std = np.zeros(size, np.float32), np.ones(size, np.float32)
     mean[to_columns], std[to_columns] = policy.mean[from_columns], policy.std[from_columns]
-    *hidden, (last, last_bias) = others
+    *hidden, (last, last_bias) = (first, bias), *others
     more = task.action_size - policy.action_size
     last, last_bias = np.pad(last, ((0, more), (0, 0))), np.pad(last_bias, (0, more))
-    deviation = policy.action_std
+    deviation, value = policy.action_std, policy.value
+    if value is not None:
+        (weight, value_bias), *value_others = value.layers
+        columns = np.zeros((len(weight), size), np.float32)
+        columns[:, to_columns] = weight[:, from_columns]
+        value = replace(value, layers=[(columns, value_bias), *value_others])
     network = Network.from_layers(
         task,
-        [(first, bias), *hidden, (last, last_bias)],
+        [*hidden, (last, last_bias)],
         None if deviation is None else np.pad(deviation, (0, more), mode="edge"),
         activation=policy.activation,
         action_repeat=policy.action_repeat,
@@ -93,6 +99,7 @@ def fitted(policy: Network, task: Task) -> Network:
         sensing=policy.sensing,
         randomization=policy.randomization,
         shield=policy.metadata.get("shield"),
+        value=value,
     )
     network.mode = policy.mode
     return network

@@ -12,6 +12,8 @@ normalization of its observations, and how it acts. With observation size o, act
 | `std` | (o,) | float32 | standard deviation of the observations in training, above 0 |
 | `action_std` | (a,) | float32 | standard deviation of the actions in training, above 0; optional |
 | `action_table` | (c, a) | float32 | actions that the policy chooses from; only with such a head |
+| `value.<i>.weight` | (out, in) | float32 | weights of layer i of the value network; optional |
+| `value.<i>.bias` | (out,) | float32 | biases of layer i of the value network; the last has 1 |
 
 All numbers are finite. Arrays may be float16, which is half the size; they are read as float32.
 The metadata are text:
@@ -32,6 +34,7 @@ The metadata are text:
 | `action_repeat` | 1 (default) to 1000000 | control steps for which an action is held |
 | `history` | 1 (default) or more | observations in a stacked one, see `rsoccer.history` |
 | `shield` | `vsss`; optional | changes actions against rules, see `shield` |
+| `value` | JSON object; with `value.<i>` | `discount`, `action_repeat`, `reward_std`, see below |
 | `layout` | `Task.layout`; optional | observation blocks of the task; must equal those in play |
 | `training` | JSON object; optional | `command`, `samples`, `seed`, `package`, `physics` |
 | `scores` | JSON list; optional | results: objects with the fields of `Score` |
@@ -51,12 +54,17 @@ The outputs for an observation x are
     h = activation(weight @ h + bias)   for layers 0 to k - 1
     outputs = weight @ h + bias         for layer k
 
+The value network reads the same h, has the same activation, and says what return a robot expects:
+the sum over later decisions of their rewards, divided by `reward_std` and discounted by `discount`
+a decision, which lasts `action_repeat` control steps. `rsoccer.policies.lookahead` plays with it.
+
 With the head `gaussian` they are the mean action. With `action_std` an action is drawn as
 `mean + action_std * N(0, 1)`. Then it is clipped to [-1, 1]. Equal policies give equal bytes.
 """
 
 from __future__ import annotations
 
+import itertools
 import json
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
@@ -93,6 +101,43 @@ SUFFIXES: Final = (SUFFIX, ONNX_SUFFIX)
 TACTICS_FORMAT: Final = "rsoccer-tactics-1"
 """Version of the files of `rsoccer.policies.evolved`. A new one makes older readers refuse them."""
 INSTALL_HINT: Final = "writing policy files needs safetensors: pip install 'rsoccer[train]'"
+
+
+POLICY: Final = "layers"
+"""First part of the names of the policy's layers."""
+VALUE: Final = "value"
+"""First part of the names of the value network's layers, and key of its numbers."""
+
+
+@dataclass(frozen=True)
+class Value:
+    """A value network: the return that a robot expects from what it observes."""
+
+    layers: list[tuple[Floats, Floats]]
+    """weight (out, in) and bias (out,) of each layer; the last has one output"""
+    discount: float
+    """discount of a decision, above 0 and at most 1"""
+    action_repeat: int
+    """control steps of a decision in the training"""
+    reward_std: float
+    """rewards are divided by it, above 0"""
+
+    def __post_init__(self) -> None:
+        """Refuse numbers out of range with a ValueError, and others with a TypeError."""
+        valid = 0.0 < self.discount <= 1.0 and 0.0 < self.reward_std < np.inf
+        if not (valid and type(self.action_repeat) is int and self.action_repeat >= 1):
+            raise ValueError("a number is out of range")
+
+    @property
+    def text(self) -> str:
+        """Its numbers, for the metadata."""
+        names = ("discount", "action_repeat", "reward_std")
+        return json.dumps({name: getattr(self, name) for name in names})
+
+    def arrays(self) -> dict[str, Floats]:
+        """Return its layers by their names in the file; not copied."""
+        arrays = itertools.chain.from_iterable(self.layers)
+        return dict(zip(_names(VALUE, len(self.layers)), arrays, strict=True))
 
 
 @dataclass(frozen=True)
@@ -218,7 +263,7 @@ def _read_number(metadata: Mapping[str, str], name: str, default: str) -> float:
 
 
 def read_layers(arrays: Mapping[str, Array]) -> list[tuple[Floats, Floats]]:
-    """Read the layers, and check that there are no missing or unknown arrays.
+    """Read the layers of the policy, and check that there are no missing or unknown arrays.
 
     Args:
         arrays: all arrays of the file, by name.
@@ -229,20 +274,69 @@ def read_layers(arrays: Mapping[str, Array]) -> list[tuple[Floats, Floats]]:
     Raises:
         ValueError: missing or unknown arrays, or layers of sizes that do not match.
     """
-    count = sum(name.endswith(".weight") for name in arrays)
-    expected = {f"layers.{index}.{part}" for index in range(count) for part in ("weight", "bias")}
-    expected |= {"mean", "std"}
+    count, values = (_count(arrays, network) for network in (POLICY, VALUE))
+    expected = {"mean", "std", *_names(POLICY, count), *_names(VALUE, values)}
     given = set(arrays) - {"action_std", "action_table"}
     if count == 0 or given != expected:
-        odd = sorted(given ^ expected) or ["layers.0.weight"]
+        odd = sorted(given ^ expected) or [f"{POLICY}.0.weight"]
         raise ValueError(f"missing or unknown arrays: {', '.join(odd)}")
+    return _read_network(arrays, POLICY)
+
+
+def read_value(arrays: Mapping[str, Array], metadata: Mapping[str, str], size: int) -> Value | None:
+    """Read the value network.
+
+    Args:
+        arrays: all arrays of the file, by name.
+        metadata: text by key.
+        size: numbers in an observation, a stacked one with a history.
+
+    Returns:
+        The value network; None for a policy without one.
+
+    Raises:
+        ValueError: layers of sizes that do not match, or numbers that are missing or out of range.
+    """
+    text = metadata.get(VALUE)
+    if not _count(arrays, VALUE):
+        if text is not None:
+            raise ValueError(f"metadata 'value' needs the arrays of a value network, got {text!r}")
+        return None
+    layers = _read_network(arrays, VALUE)
+    sizes = layers[0][0].shape[1], len(layers[-1][1])
+    if sizes != (size, 1):
+        raise ValueError(
+            f"the value network should take {size} numbers and give 1, got {sizes[0]} and "
+            f"{sizes[1]}"
+        )
+    try:
+        return Value(layers, **json.loads(text or ""))
+    except (TypeError, ValueError) as error:
+        raise ValueError(
+            "metadata 'value' should be a JSON object with discount (above 0, at most 1), "
+            f"action_repeat (1 or more) and reward_std (above 0), got {text!r}"
+        ) from error
+
+
+def _count(arrays: Mapping[str, Array], network: str) -> int:
+    """Number of layers of a network."""
+    return sum(name.startswith(f"{network}.") and name.endswith(".weight") for name in arrays)
+
+
+def _names(network: str, count: int) -> list[str]:
+    """Names of the arrays of a network with some layers."""
+    return [f"{network}.{index}.{part}" for index in range(count) for part in ("weight", "bias")]
+
+
+def _read_network(arrays: Mapping[str, Array], network: str) -> list[tuple[Floats, Floats]]:
+    """Weights and biases of a network."""
     layers: list[tuple[Floats, Floats]] = []
-    for index in range(count):
-        weight = _read_array(arrays, f"layers.{index}.weight", (None, None))
-        bias = _read_array(arrays, f"layers.{index}.bias", (weight.shape[0],))
+    for index in range(_count(arrays, network)):
+        weight = _read_array(arrays, f"{network}.{index}.weight", (None, None))
+        bias = _read_array(arrays, f"{network}.{index}.bias", (weight.shape[0],))
         if layers and weight.shape[1] != layers[-1][0].shape[0]:
             raise ValueError(
-                f"layers.{index}.weight takes {weight.shape[1]} numbers, "
+                f"{network}.{index}.weight takes {weight.shape[1]} numbers, "
                 f"but the layer before gives {layers[-1][0].shape[0]}"
             )
         layers.append((weight, bias))

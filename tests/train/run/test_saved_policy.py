@@ -34,6 +34,24 @@ def test_the_policy_file_plays_the_trained_network(finished: Path) -> None:
     assert policy.task_name == NAME
 
 
+def test_a_policy_file_holds_the_value_network(finished: Path, tmp_path: Path) -> None:
+    trainer = Trainer(tiny(finished))
+    restore(trainer, checkpoint.load(finished / checkpoint.FILE_NAME))
+    size, ppo = trainer.collector.matches.observation_size, trainer.args.ppo
+    observations = np.random.default_rng(0).normal(size=(50, 3, size)).astype(np.float32)
+    mean, std = trainer.collector.obs_rms.as_float32()
+    normalized = torch.tensor(((observations - mean) / std).clip(-10.0, 10.0))
+    policy = Network.load(finished / "policy.safetensors")
+    expected = trainer.model.value(normalized).detach().numpy()
+    np.testing.assert_allclose(policy.values(observations), expected, atol=1e-5)
+    assert policy.value is not None
+    assert policy.value.action_repeat == trainer.args.rollout.action_repeat == 3
+    assert policy.value.discount == ppo.gamma**3
+    assert policy.value.reward_std == trainer.collector.return_rms.std[0] != 1.0
+    central = Network.load(train(tiny(tmp_path, central_critic=True)))
+    assert central.value is None, "it reads more than a robot observes"
+
+
 def test_a_policy_file_holds_action_repeat_and_action_std(finished: Path) -> None:
     trainer = Trainer(tiny(finished))
     restore(trainer, checkpoint.load(finished / checkpoint.FILE_NAME))
@@ -72,7 +90,7 @@ def test_the_policy_after_a_signal_is_that_of_the_checkpoint(tmp_path: Path) -> 
     assert run_until(tiny(tmp_path), 2 * 13 + 11) == 2
     trainer = Trainer(tiny(tmp_path))
     restore(trainer, checkpoint.load(tmp_path / checkpoint.FILE_NAME))
-    saved, expected = Network.load(tmp_path / "policy.safetensors"), trainer.network()
+    saved, expected = Network.load(tmp_path / "policy.safetensors"), trainer.saved_network()
     arrays = expected.arrays()
     assert all(array.tobytes() == arrays[name].tobytes() for name, array in saved.arrays().items())
 

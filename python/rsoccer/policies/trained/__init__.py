@@ -14,6 +14,8 @@ from typing import Final
 
 from rsoccer.policies import policy_file, training_conditions
 from rsoccer.policies.evolved import Evolved, is_tactics
+from rsoccer.policies.lookahead import Lookahead
+from rsoccer.policies.names import LOOKAHEAD
 from rsoccer.policies.network import MODES, Network
 from rsoccer.policies.other_task import fitted
 from rsoccer.policies.policy_file import Score
@@ -81,21 +83,44 @@ def load_best(task: Task, detail: str | None = None) -> Network | Evolved:
             variant or mode.
     """
     variant, mode = _variant_and_mode(detail)
+    name, path = _best_file(task, variant)
+    return _loaded(name, path, mode, task)
+
+
+def load_lookahead(task: Task, variant: str | None = None) -> Lookahead:
+    """Load the trained policy of a task, to play it with a lookahead.
+
+    Args:
+        task: the task that is played.
+        variant: "robust" for the policy for late and noisy senses; None for the other one.
+
+    Raises:
+        ValueError: no policy for this task, or one without a value network.
+    """
+    name, path = _best_file(task, variant)
+    try:
+        return Lookahead(Network.load(path), task)
+    except ValueError as error:
+        raise ValueError(f"{name}: {error}") from error
+
+
+def _best_file(task: Task, variant: str | None) -> tuple[str, Path]:
+    """Name and file of the trained policy of a task."""
     name = BEST if variant is None else f"{BEST}:{variant}"
     if variant is None and hasattr(task, "n_opponents") and task.n_opponents:
         against = list_trained(OPPONENTS).get(task.name)
         if against is not None:
-            return _loaded(name, against, mode, task)
+            return name, against
     files = list_trained(variant)
     skills = SKILLS.get(task.name)
     source = task.name if task.name in files else skills
     if source in files:
-        return _loaded(name, files[source], mode, task)
+        return name, files[source]
     names = list(files)
     if TEAM_TASK in files:
-        network = Network.load(files[TEAM_TASK], mode)
-        if network.metadata.get("layout") == task.layout.text:
-            return network
+        layout = policy_file.read_file(files[TEAM_TASK])[1].get("layout")
+        if layout == task.layout.text:
+            return name, files[TEAM_TASK]
         names[names.index(TEAM_TASK)] += " (and tasks with its observations)"
     kind = "a trained" if variant is None else f"a {variant}"
     raise ValueError(
@@ -185,6 +210,15 @@ def _ending(variant: str | None) -> str:
     return policy_file.SUFFIX if variant is None else f".{variant}{policy_file.SUFFIX}"
 
 
+def variant_of_lookahead(detail: str | None) -> str | None:
+    """Return the variant in a detail that asks for a lookahead, "" for none; None for others.
+
+    Args:
+        detail: what follows the name `best`, such as "lookahead" or "robust:lookahead".
+    """
+    return {LOOKAHEAD: "", f"{ROBUST}:{LOOKAHEAD}": ROBUST}.get(detail or "")
+
+
 def _variant_and_mode(detail: str | None) -> tuple[str | None, str | None]:
     """Variant and mode that follow the name; None for the usual ones."""
     if detail is None:
@@ -192,7 +226,7 @@ def _variant_and_mode(detail: str | None) -> tuple[str | None, str | None]:
     first, colon, rest = detail.partition(":")
     variant, mode = (ROBUST, rest if colon else None) if first == ROBUST else (None, detail)
     if mode not in (None, *MODES):
-        expected = (*MODES, *(() if variant else (ROBUST,)))
+        expected = (*MODES, LOOKAHEAD, *(() if variant else (ROBUST,)))
         raise ValueError(f"{BEST}: expected one of {expected} after the colon, got {mode!r}")
     return variant, mode
 

@@ -97,7 +97,7 @@ class Loop:
         """
         out = self.trainer.args.out
         checkpoint.save(out / checkpoint.FILE_NAME, saved)
-        self.trainer.network().save(out / POLICY_FILE)
+        self.trainer.saved_network().save(out / POLICY_FILE)
 
     def _ends(self, row: Row) -> bool:
         """Return whether the callback ends the run."""

@@ -16,7 +16,9 @@ from rsoccer._core import AreaShield
 from rsoccer.history import ObservationStack
 from rsoccer.matches import Matches
 from rsoccer.policies import training_conditions
+from rsoccer.policies.layers import read_layers
 from rsoccer.policies.network import Network
+from rsoccer.policies.policy_file import VALUE, Value
 from rsoccer.policies.shield import Shield
 from rsoccer.sources import closed_on_error
 from rsoccer.train.args import Args
@@ -274,6 +276,23 @@ class Trainer:
         if args.network.shield is not None:
             network.metadata["shield"] = args.network.shield
             network.shield = Shield(args.network.shield)
+        return network
+
+    def saved_network(self) -> Network:
+        """Return the current policy as its file has it: with the value network.
+
+        A value network that reads more than the observation of a robot, a central one, is of no
+        use in play and stays out, and so is one that reads a history.
+        """
+        network, args = self.network(), self.args
+        if args.network.central_critic or args.history > 1:
+            return network
+        repeat = args.rollout.action_repeat
+        discount = discount_per_decision(args.ppo, repeat, self.progress)
+        reward_std = float(self.collector.return_rms.std[0])
+        layers, _ = read_layers(self.model.critic)
+        network.value = Value(layers, discount, repeat, reward_std)
+        network.metadata[VALUE] = network.value.text
         return network
 
 
