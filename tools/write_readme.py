@@ -122,7 +122,8 @@ def policy_names() -> str:
         f"{names}, the path of a policy file, or `module:name` of code of your own. A skill "
         f"from 0 to 1 may follow, as in {skilled}. `best` is the [trained policy]"
         "(docs/policies.md#trained-policies) of the task. It and "
-        "policy files sample actions as in training; `best:mean` plays the mean action."
+        "policy files sample actions as in training; `best:mean` plays the mean action, and "
+        "`best:lookahead` [tries actions](docs/policies.md#lookahead) before it acts."
     )
 
 

@@ -1,6 +1,9 @@
 """Policies that try actions in a model of the match."""
 
+import copy
 import pickle
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -9,99 +12,162 @@ import pytest
 
 import rsoccer
 from rsoccer import LEARN, Matches, Policy, WorldRng, make_task
+from rsoccer._core import Threads
 from rsoccer.arrays import Floats
 from rsoccer.frame import Frame
-from rsoccer.policies import list_policies, make_policy
+from rsoccer.policies import list_policies, make_policy, trained_on
 from rsoccer.policies.base import MatchState
 from rsoccer.policies.lookahead import CANDIDATES, GROUP, Lookahead
 from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import Value
 from rsoccer.task import Learn, Task
+from rsoccer.tasks import VssSelfPlay
 from tests.policies.networks import network_for
 
 NAME = "VSSSelfPlay-v0"
 
 
-def planner(task: Task | str = NAME, shield: str | None = None) -> Lookahead:
-    """One that begins with actions of 0 and expects nothing after the next rewards."""
-    source = make_task(NAME)
-    layers = [(np.zeros((1, source.layout.size), np.float32), np.zeros(1, np.float32))]
-    network = Network.from_layers(
-        source,
-        network_for(source).layers,
-        [0.4, 0.4],
-        shield=shield,
-        value=Value(layers, 0.95, 3, 2.0),
-    )
-    return Lookahead(network, make_task(task) if isinstance(task, str) else task)
+def network(source: Task | str = NAME, weights: float = 0.0, **changes: Any) -> Network:  # noqa: ANN401
+    """One of mean actions near 0, whose value network has random weights of some size."""
+    source = make_task(source) if isinstance(source, str) else source
+    rng = np.random.default_rng(0)
+    layers = [
+        (
+            np.asarray(weights * rng.normal(size=(size, source.layout.size)), np.float32),
+            np.zeros(size, np.float32),
+        )
+        for size in (source.action_size, 1)
+    ]
+    given = {"action_std": [0.4] * source.action_size, "value": Value(layers[1:], 0.95, 3, 2.0)}
+    return Network.from_layers(source, layers[:1], **{**given, **changes})
 
 
-def ball_ahead(worlds: int = 1) -> Floats:
-    """A ball before a robot of blue, and before the open goal; all other robots far away."""
+def planner(task: Task | str = NAME, **changes: Any) -> Lookahead:  # noqa: ANN401
+    """A policy that begins with actions of 0, and expects nothing after the next rewards."""
+    return Lookahead(network(**changes), task)
+
+
+def beside_the_ball(worlds: int = 1, side: float = 1.0) -> Floats:
+    """A robot of blue (side 1) or yellow (-1) with its back to the ball, others far away."""
     frame = Frame.empty(worlds, 3, 3)
-    frame.robots.position[:, :, 0] = -0.6
+    frame.robots.position[:, :, 0] = -0.6 * side
     frame.robots.position[:, :, 1] = np.linspace(-0.5, 0.5, 6)
-    frame.robots.position[:, 0] = 0.3, 0.0
+    frame.robots.position[:, 0 if side > 0 else 3] = 0.2 * side, 0.0
     frame.robots.heading[:] = 1.0, 0.0
-    frame.ball.position[:] = 0.37, 0.0
+    frame.ball.position[:] = 0.3 * side, 0.02
     return frame.rows
 
 
-def played(policy: Policy, worlds: int, steps: int, *, seed: int = 0, threads: int = 1) -> Matches:
-    """Matches from `ball_ahead`, of blue with a policy against robots that stand."""
-    controllers: dict[str, Policy | str] = {"blue": policy, "yellow": "zero"}
-    matches = Matches(NAME, worlds, seed, threads, controllers=controllers, autoreset="disabled")
-    matches.reset(rows=ball_ahead(worlds))
+def played(
+    policy: Policy, worlds: int, steps: int, *, seed: int = 0, threads: int = 1, side: float = 1.0
+) -> Matches:
+    """Matches in which a policy drives both teams, from `beside_the_ball`."""
+    matches = Matches(
+        NAME, worlds, seed, threads, controllers={"all": policy}, autoreset="disabled"
+    )
+    matches.reset(rows=beside_the_ball(worlds, side))
     for _ in range(steps):
         matches.step(np.zeros((worlds, 0, 2), np.float32))
     return matches
 
 
-def test_it_finds_actions_that_its_network_does_not_know() -> None:
-    """The network drives at random around a stand; rewards of the next 75 ms lead the ball on."""
-    start, policy = ball_ahead()[0, 0], planner()
-    with_it, alone = (
-        played(each, 8, 40).frame.ball.position[:, 0] - start for each in (policy, policy.network)
-    )
-    assert with_it.mean() > 0.15
-    assert alone.mean() < 0.5 * with_it.mean()
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_each_team_finds_actions_that_its_network_does_not_know(side: float) -> None:
+    """The network stands still; rewards of the next 75 ms lead the ball to the other goal."""
+    policy = planner()
+    policy.network.mode = "mean"
+    ways = [
+        side * (played(each, 16, 40, side=side).frame.ball.position[:, 0] - 0.3 * side)
+        for each in (policy, policy.network)
+    ]
+    assert (ways[1] == 0.0).all()
+    assert (ways[0] > -0.01).all()
+    assert ways[0].mean() > 0.08
+
+
+def test_the_joint_action_has_the_greatest_sum_of_rewards_and_value() -> None:
+    """Hand-made: the values of what follows, without those of copies that ended in a goal."""
+    policy = planner(weights=0.3)
+    rows = np.concatenate([beside_the_ball(2), beside_the_ball(1)])
+    frame = Frame.empty(3, 3, 3)
+    frame.rows[:] = rows
+    frame.ball.position[2], frame.ball.velocity[2] = (0.72, 0.0), (2.0, 0.0)  # a goal at once
+    matches = Matches(NAME, 3, autoreset="disabled")
+    matches.reset(rows=frame.rows)
+    match = MatchState(frame.rows, matches.play.game, np.arange(3), Threads(), policy.task.config)
+    tried = policy._tried(np.zeros((3, 6, 2), np.float32), np.arange(3), WorldRng.seeded(0, 3))
+    found = policy._returns(match, np.arange(3), tried)
+    for candidate in (0, 7, CANDIDATES - 1):
+        matches.reset(rows=frame.rows)
+        total = np.zeros((3, 6))
+        for _ in range(3):
+            outcome = matches.step(tried[:, candidate])
+            total += outcome.rewards
+        worth = 0.95 * policy.network.values(outcome.observations)
+        worth[2] = 0.0
+        np.testing.assert_allclose(
+            found[:, candidate], (total / 2.0 + worth)[:, :3].sum(axis=1), rtol=1e-3, atol=1e-3
+        )
+    assert found[2].mean() > 3 * 10.0 / 2.0 * 0.9
+    assert found[0].std() > 0.01
+
+
+def test_networks_see_their_last_actions(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The plan begins with the observation that the network alone would have."""
+    policy, seen = planner(weights=0.2), list[Floats]()
+    matches = Matches(NAME, 2, controllers={"all": policy}, autoreset="disabled")
+    matches.reset()
+    choose = policy.network.mean_actions
+
+    def noting(observations: Floats) -> Floats:
+        seen.append(observations.copy())
+        return choose(observations)
+
+    monkeypatch.setattr(policy.network, "mean_actions", noting)
+    for _ in range(4):
+        expected = matches.task.layout.observe(matches.play)
+        matches.step(np.zeros((2, 0, 2), np.float32))
+        np.testing.assert_allclose(seen[-1], expected, atol=1e-6)
+    assert np.abs(expected[..., -2:]).min() > 0.0
 
 
 def test_worlds_do_not_depend_on_each_other_or_on_threads() -> None:
-    many = played(planner(), GROUP + 5, 6, threads=2).frame.rows
+    policy = planner(weights=0.1)
+    many = played(policy, GROUP + 5, 6, threads=2).frame.rows
     for seed in (0, GROUP + 3):
-        one = played(planner(), 1, 6, seed=seed).frame.rows
+        one = played(policy, 1, 6, seed=seed).frame.rows
         np.testing.assert_allclose(many[seed], one[0], atol=1e-4)
     assert np.abs(many[0] - many[1]).max() > 1e-3, "each draws for itself"
 
 
-def test_both_teams_plan_for_themselves() -> None:
-    """What one gains the other loses: with the sum of both no ball would be worth a move."""
-    matches = Matches(NAME, 8, controllers={"all": planner()}, autoreset="disabled")
-    matches.reset(rows=ball_ahead(8))
-    for _ in range(40):
-        matches.step(np.zeros((8, 0, 2), np.float32))
-    assert (matches.frame.ball.position[:, 0] > ball_ahead()[0, 0] + 0.1).mean() > 0.7
+def test_one_policy_may_play_in_several_threads_at_once() -> None:
+    policy = planner(weights=0.1)
+    expected = played(policy, 4, 10).frame.rows
+    with ThreadPoolExecutor(4) as pool:
+        found = list(pool.map(lambda _: played(policy, 4, 10).frame.rows, range(8)))
+    for rows in found:
+        np.testing.assert_array_equal(rows, expected)
 
 
 def test_ended_matches_are_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
     policy = planner()
     plan, planned = policy._planned, list[int]()
 
-    def counting(rows: Floats, match: MatchState, rng: WorldRng) -> Floats:
-        planned.append(len(rows))
-        return plan(rows, match, rng)
+    def counting(match: MatchState, last: Floats, rng: WorldRng) -> Floats:
+        planned.append(len(match.rows))
+        return plan(match, last, rng)
 
     monkeypatch.setattr(policy, "_planned", counting)
     matches = Matches(NAME, 4, controllers={"blue": policy}, autoreset="disabled", max_steps=2)
     matches.reset()
-    matches.step(np.zeros((4, 3, 2), np.float32))
-    matches.reset(mask=np.array([True, True, True, False]))
-    matches.step(np.zeros((4, 3, 2), np.float32))
-    matches.step(np.zeros((4, 3, 2), np.float32))
-    assert planned == [4, 4, 4]
-    matches.step(np.zeros((4, 3, 2), np.float32))
-    assert planned == [4, 4, 4]
+    actions = np.zeros((4, 3, 2), np.float32)
+    matches.step(actions)
+    matches.reset(mask=np.array([True, True, False, False]))
+    matches.step(actions)
+    matches.step(actions)
+    assert planned == [4, 4, 2]
+    matches.step(actions)
+    assert planned == [4, 4, 2], "all have ended"
 
 
 def test_a_single_robot_may_plan_beside_others() -> None:
@@ -114,71 +180,120 @@ def test_a_single_robot_may_plan_beside_others() -> None:
 
 
 @pytest.mark.parametrize(
-    ("task", "options"),
+    ("source", "task", "options"),
     [
-        ("VSSMatch-v0", {"half_seconds": 2.0}),
-        ("VSSMatch-v0", {"half_seconds": 2.0, "n_blue": 5, "n_yellow": 5, "field": "vss_5v5"}),
-        ("VSSMulti-v0", {}),
-        ("VSS-v0", {"robot": "vss_firasim"}),
+        (NAME, "VSSMatch-v0", {"half_seconds": 2.0}),
+        (NAME, "VSSMatch-v0", {"half_seconds": 2.0, "n_blue": 5, "n_yellow": 4}),
+        (NAME, "VSSMulti-v0", {}),
+        ("VSSMulti-v0", "VSSMulti-v0", {"max_steps": 40}),
+        (NAME, "VSS-v0", {"robot": "vss_firasim", "max_steps": 40}),
+        ("SSLStaticDefenders-v0", "SSLStaticDefenders-v0", {"max_steps": 20, "n_opponents": 2}),
+        ("SSLSelfPlay-v0", "SSLSelfPlay-v0", {"max_steps": 20}),
     ],
 )
-def test_it_plays_other_tasks_with_their_own_robots(task: str, options: dict[str, Any]) -> None:
+def test_it_plays_tasks_with_their_own_robots(
+    source: str, task: str, options: dict[str, Any]
+) -> None:
     chosen = make_task(task, **options)
-    policy = planner(chosen, shield="vsss")
+    shield = {} if source.startswith("SSL") else {"shield": "vsss"}
+    policy = Lookahead(network(source, weights=0.05, **shield), chosen)
     assert policy.task.config == chosen.config
-    found = rsoccer.evaluate(policy, "zero", 2, task=chosen, threads=1)
+    assert (policy.task_name, policy.task_options) == (source, {})
+    found = rsoccer.evaluate(policy, matches=2, task=chosen, threads=1)
     assert found.matches == 2
 
 
-def test_it_plays_from_what_its_robots_know() -> None:
-    found = rsoccer.evaluate(planner(), "zero", 2, task=NAME, threads=1, sensing="rc2021")
-    assert found.matches == 2
+def test_it_plays_from_what_its_robots_know(monkeypatch: pytest.MonkeyPatch) -> None:
+    policy = planner()
+    plan, rows = policy._planned, list[Floats]()
+
+    def noting(match: MatchState, last: Floats, rng: WorldRng) -> Floats:
+        rows.append(match.rows.copy())
+        return plan(match, last, rng)
+
+    monkeypatch.setattr(policy, "_planned", noting)
+    matches = Matches(NAME, 2, controllers={"blue": policy}, sensing="rc2021")
+    matches.reset()
+    for _ in range(10):
+        known, true = matches.play.sensed.rows.copy(), matches.play.frame.rows.copy()
+        matches.step(np.zeros((2, 3, 2), np.float32))
+        np.testing.assert_array_equal(rows[-1], known)
+    assert np.abs(known - true).max() > 1e-3
 
 
 def test_a_file_plays_with_it(tmp_path: Path) -> None:
     path = tmp_path / "own.safetensors"
-    planner().network.save(path)
-    policy = make_policy(f"{path}:lookahead", NAME)
+    source = make_task(NAME, n_blue=2, n_yellow=2)
+    network(source, weights=0.1).save(path)
+    policy = make_policy(f"{path}:lookahead", source)
     assert isinstance(policy, Lookahead)
-    assert policy.task_name == NAME
     assert policy.network.value is not None
     assert policy.network.value.discount == 0.95
-    copy = pickle.loads(pickle.dumps(policy))
-    a, b = (played(each, 2, 3).frame.rows for each in (policy, copy))
-    np.testing.assert_array_equal(a, b)
+    task = trained_on(f"{path}:lookahead")
+    assert task is not None
+    assert (task.name, task.n_blue) == (NAME, 2), "the options of the file"
     assert "lookahead" not in list_policies()
 
 
-def test_policies_that_cannot_plan_are_refused(tmp_path: Path) -> None:
-    task, network = make_task(NAME), planner().network
-    with pytest.raises(ValueError, match="with a value network and without a history"):
-        Lookahead(network_for(task), task)
-    with pytest.raises(ValueError, match=r"field and robots that VSSSelfPlay-v0 can have"):
-        Lookahead(network, make_task("SSLGoToBall-v0"))
+def test_copies_play_alike() -> None:
+    policy = planner(weights=0.1)
+    expected = played(policy, 2, 3).frame.rows
+    for other in (pickle.loads(pickle.dumps(policy)), copy.deepcopy(policy)):
+        np.testing.assert_array_equal(played(other, 2, 3).frame.rows, expected)
+
+
+def test_shipped_policies_of_whole_teams_play_with_it() -> None:
+    for task in (NAME, "VSSMatch-v0"):
+        for name in ("best:lookahead", "best:robust:lookahead"):
+            assert isinstance(make_policy(name, task), Lookahead)
+    with pytest.raises(ValueError, match="best: lookahead: expected a policy with a value network"):
+        make_policy("best:lookahead", "VSS-v0")
+    with pytest.raises(ValueError, match="best: lookahead: expected a network, but SSLMatch"):
+        make_policy("best:lookahead", "SSLMatch-v0")
+
+
+@dataclass(frozen=True)
+class OtherActions(VssSelfPlay):
+    """Actions of another meaning."""
+
+    name = "OtherActions-v0"
+
+    @property
+    def action_meaning(self) -> str:
+        return "something else"
+
+
+@pytest.mark.parametrize(
+    ("changes", "lacking"),
+    [
+        ({"value": None}, "that lacks a value network"),
+        ({"action_std": None}, "that lacks a constant action_std"),
+        ({"head": "squashed"}, "that lacks a plain Gaussian head"),
+    ],
+)
+def test_policies_that_cannot_plan_are_refused(changes: dict[str, Any], lacking: str) -> None:
+    with pytest.raises(ValueError, match=f"expected a policy with .*{lacking}"):
+        planner(**changes)
+
+
+@pytest.mark.parametrize("task", ["SSLGoToBall-v0", OtherActions()], ids=["league", "actions"])
+def test_tasks_of_other_bodies_and_actions_are_refused(task: Task | str) -> None:
+    with pytest.raises(ValueError, match="expected field, robots and actions that VSSSelfPlay-v0"):
+        planner(task)
+
+
+def test_texts_that_name_no_such_policy_are_refused(tmp_path: Path) -> None:
     path = tmp_path / "own.safetensors"
-    network_for(task).save(path)
+    network_for(make_task(NAME)).save(path)
     with pytest.raises(ValueError, match=r"own.safetensors: lookahead: expected a policy with"):
-        make_policy(f"{path}:lookahead", task)
+        make_policy(f"{path}:lookahead", NAME)
     with pytest.raises(ValueError, match="scripted: expected a skill"):
-        make_policy("scripted:lookahead", task)
-
-
-def test_robots_that_its_network_does_not_play_are_refused() -> None:
-    task = make_task("VSSMulti-v0")
-    layers = [(np.zeros((1, task.layout.size), np.float32), np.zeros(1, np.float32))]
-    value = Value(layers, 0.95, 3, 2.0)
-    network = Network.from_layers(task, network_for(task).layers, value=value)
-    matches = Matches(NAME, 1, controllers={"yellow": Lookahead(network, make_task(NAME))})
-    matches.reset()
-    with pytest.raises(ValueError, match=r"robots that learn in VSSMulti-v0.*got \['yellow_0'"):
-        matches.step(np.zeros((1, 3, 2), np.float32))
+        make_policy("scripted:lookahead", NAME)
 
 
 def test_the_means_are_among_what_is_tried() -> None:
-    policy = planner()
     means = np.full((2, 6, 2), 0.25, np.float32)
-    rng = WorldRng.seeded(0, 2)
-    tried = policy._tried(means, np.array([0, 2]), rng)
+    tried = planner()._tried(means, np.array([0, 2]), WorldRng.seeded(0, 2))
     assert tried.shape == (2, CANDIDATES, 6, 2)
     np.testing.assert_array_equal(tried[:, 0], means)
     np.testing.assert_array_equal(tried[:, :, [1, 3, 4, 5]], 0.25)

@@ -194,11 +194,11 @@ VALUE_CORRUPTIONS: dict[str, tuple[Corruption, str]] = {
     ),
     "a discount above 1": (
         lambda arrays, metadata: metadata.update(value=VALUE_NUMBERS.replace("0.95", "1.01")),
-        "discount .above 0, at most 1.",
+        "value.discount: expected 0 to 1, got 1.01",
     ),
     "a fraction of a control step": (
         lambda arrays, metadata: metadata.update(value=VALUE_NUMBERS.replace("3", "2.5")),
-        "action_repeat .1 or more.",
+        "value.action_repeat: expected",
     ),
     "a number that is missing": (
         lambda arrays, metadata: metadata.update(value='{"discount": 0.95}'),
@@ -206,7 +206,7 @@ VALUE_CORRUPTIONS: dict[str, tuple[Corruption, str]] = {
     ),
     "no number": (
         lambda arrays, metadata: metadata.update(value=VALUE_NUMBERS.replace("2.0", "NaN")),
-        "reward_std .above 0.",
+        "value.reward_std: expected",
     ),
     "another observation": (
         lambda arrays, metadata: arrays.update(

@@ -16,6 +16,7 @@ from rsoccer.commands.subject import DEFAULT_TASK_HINT, check_policy_names, poli
 from rsoccer.commands.task_options import TASK_OPTIONS
 from rsoccer.policies.evolved import Evolved
 from rsoccer.policies.labels import labels
+from rsoccer.policies.names import LOOKAHEAD
 from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import MAX_ACTION_REPEAT, ONNX_SUFFIX, SUFFIX
 from rsoccer.task import Task
@@ -92,6 +93,8 @@ def _refusal(name: str, task: Task, policy: policies.Policy) -> str:
             f"onnx: expected a policy with a network, got {name} of {task.name}, a script with "
             "learned tactics; without --onnx they are written as a policy file"
         )
+    if name.endswith(f":{LOOKAHEAD}"):
+        return f"policy: expected {name.rpartition(':')[0]!r}, whose network it plays, got {name!r}"
     return (
         f"policy: expected best or a policy file (*{SUFFIX}), got {name}, which has no weights to "
         "write"

@@ -33,7 +33,8 @@ class List(Imports):
         write("best:robust is made for late and noisy senses, and scores:")
         _write_trained(trained.ROBUST)
         examples = (f"{name}:0.5" for name in policies.list_policies_with_skill())
-        write("best and files play as they were trained; :mean or :sample may follow the name")
+        write("best and files play as they were trained; :mean or :sample may follow the name, and")
+        write(":lookahead, if they have a value network: then they try actions before they act")
         write(f"a skill from 0 to 1 may follow, as in {', '.join(examples)}")
 
 

@@ -19,8 +19,8 @@ from rsoccer.task import Task
 
 _SUBJECT_HELP = (
     "a policy: a name that `rsoccer list` prints, or the path of a policy file, which plays as it "
-    "was trained unless :mean or :sample follows, or module:name of code of your own; or a task, "
-    "whose policy --policy names"
+    "was trained unless :mean, :sample or :lookahead follows, or module:name of code of your own; "
+    "or a task, whose policy --policy names"
 )
 SUBJECT = arg(metavar="POLICY|TASK", help=_SUBJECT_HELP, help_behavior_hint="")
 SUBJECT_OR_REPLAY = arg(

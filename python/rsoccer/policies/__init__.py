@@ -6,7 +6,7 @@
 | --- | --- | --- |
 | `best` | any | the trained policy of the task, where the package has one |
 | `best:robust` | any | the one for late and noisy senses, on some tasks |
-| `best:lookahead` | VSSS | `best`, which tries actions in a model of the match |
+| `best:lookahead` | VSSS | `best` of whole teams and matches, which tries actions in a model |
 | `zero` | any | stands still |
 | `uniform` | any | independent uniform random actions |
 | `ou` | any | actions of an Ornstein-Uhlenbeck process |
@@ -39,7 +39,7 @@ from rsoccer.policies.names import (
 )
 from rsoccer.policies.own_code import is_module_text, make_from_module
 from rsoccer.policies.policy_file import ONNX_SUFFIX, SUFFIX, SUFFIXES
-from rsoccer.registry import as_task, make_task
+from rsoccer.registry import as_task, make_task, task_with_options
 from rsoccer.task import Task
 
 __all__ = ["Policy", "PolicyInput", "list_policies", "list_policies_with_skill"]
@@ -217,12 +217,12 @@ def _load(text: str, task: Task | None = None) -> Policy:
     if not (path.endswith(SUFFIXES) or os.path.isfile(path)):
         raise ValueError(f"unknown policy {text!r}: {_expected(path)}")
     # Scripts do not need the formats of files.
-    if mode == LOOKAHEAD:
-        return _load_lookahead(path, task)
     if path.endswith(ONNX_SUFFIX):
         from rsoccer.policies.onnx_policy import OnnxPolicy
 
         return OnnxPolicy.load(path, mode, task)
+    if mode == LOOKAHEAD:
+        return _load_lookahead(path, task)
     from rsoccer.policies.trained import load_file
 
     return load_file(Path(path), mode, task)
@@ -235,7 +235,8 @@ def _load_lookahead(path: str, task: Task | None) -> Policy:
 
     network = Network.load(path)
     try:
-        return Lookahead(network, make_task(network.task_name) if task is None else task)
+        own = task_with_options(network.task_name, network.task_options)
+        return Lookahead(network, own if task is None else task)
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from error
 

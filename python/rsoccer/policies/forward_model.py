@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from rsoccer._core import Threads
     from rsoccer.arrays import Floats, Mask
+    from rsoccer.game import Game
     from rsoccer.play import Play
     from rsoccer.task import Task
 
@@ -26,8 +27,8 @@ _SEED: Final = 0
 class ForwardModel:
     """Copies of a match that go on from known states, each with actions of its own.
 
-    It has no memory: each use begins with states from outside. Rules judge goals, but
-    restart no play.
+    It has no memory: each use begins with states from outside. Rules judge goals, but restart no
+    play. Models have the numbers of the task, not those that an episode has drawn.
     """
 
     def __init__(self, task: Task, observers: Sequence[int], worlds: int, threads: Threads) -> None:
@@ -40,17 +41,18 @@ class ForwardModel:
             threads: threads that share the work.
 
         Raises:
-            ValueError: a task whose memory is more than the state of its bodies.
+            ValueError: a task that keeps more of a match than bodies, actions and columns of rules.
         """
         self._task = task
         self._simulator = Simulator(task.config, worlds, threads)
         self._everywhere = np.ones(worlds, np.bool_)
         viewpoint = new_viewpoint(task, observers)
         self._play = new_play(task, worlds, viewpoint, WorldRng.seeded(_SEED, worlds), threads)
-        if self._play.memory:
+        more = [*self._play.memory, *(("referee",) if "referee" in self._play.game else ())]
+        if more:
             raise ValueError(
-                f"expected a task without memory, as its matches go on from the state of their "
-                f"bodies, got {task.name}, which keeps {', '.join(self._play.memory)}"
+                "expected a task whose matches go on from the state of their bodies, got "
+                f"{task.name}, which also keeps: {', '.join(more)}"
             )
 
     @property
@@ -58,27 +60,29 @@ class ForwardModel:
         """Number of copies, n."""
         return len(self._everywhere)
 
-    def observe(self, rows: Floats) -> Floats:
+    def observe(self, rows: Floats, actions: Floats) -> Floats:
         """Return the observations (n, observers, o) of states that nothing has moved yet.
 
         Args:
             rows: (n, row) states as robots know them.
+            actions: (n, robots, action) last actions.
         """
         self._play.start(rows)
+        self._play.actions = actions
         return self._task.layout.observe(self._play)
 
-    def place(self, rows: Floats) -> None:
+    def place(self, rows: Floats, game: Game) -> None:
         """Put all copies into states.
 
         Args:
             rows: (n, row) states as robots know them; bodies that overlap are moved apart.
+            game: (n, ...) score and columns of rules; those that the task has, too, go on.
         """
-        play = self._play
+        play, worlds = self._play, np.arange(self.worlds)
         self._simulator.place_estimates(self._everywhere, rows, play.frame.rows)
         play.start(play.frame.rows)
-        play.steps[...] = 0
-        play.game.score[...] = 0
-        begin(self._task.rules, play, np.arange(self.worlds))
+        begin(self._task.rules, play, worlds)
+        play.game.put(worlds, {**play.game, **game})
         self._task.start_episode(play)
 
     def advance(self, actions: Floats, steps: int) -> tuple[Floats, Mask, Floats]:
@@ -109,6 +113,5 @@ class ForwardModel:
         play.commands = self._task.get_commands(play, actions)
         self._simulator.step(play.commands, out=play.last_frame.rows)
         play.advance()
-        play.steps += 1
         play.events.forget()
         judge(self._task.rules, play)

@@ -274,11 +274,6 @@ class Network(HeldActions):
         Raises:
             ValueError: observations of another size.
         """
-        if observations.shape[-1] != self.observation_size:
-            raise ValueError(
-                f"the network takes observations of {self.observation_size} numbers, "
-                f"got {observations.shape[-1]}"
-            )
         return self._outputs_of(self.layers, observations)
 
     def values(self, observations: Floats) -> Floats:
@@ -288,7 +283,7 @@ class Network(HeldActions):
             observations: (..., o) observations, stacked with a history.
 
         Raises:
-            ValueError: a policy without a value network.
+            ValueError: a policy without a value network, or observations of another size.
         """
         if self.value is None:
             raise ValueError(f"expected a policy with a value network, got one of {self.task_name}")
@@ -297,6 +292,11 @@ class Network(HeldActions):
 
     def _outputs_of(self, layers: list[tuple[Floats, Floats]], observations: Floats) -> Floats:
         """Outputs of the policy or of the value network, (..., outputs)."""
+        if observations.shape[-1] != self.observation_size:
+            raise ValueError(
+                f"the network takes observations of {self.observation_size} numbers, "
+                f"got {observations.shape[-1]}"
+            )
         flat, size = observations.reshape(-1, observations.shape[-1]), len(layers[-1][1])
         outputs = np.empty((len(flat), size), np.float32)
         # More rows would use further threads, which spin on other cores.

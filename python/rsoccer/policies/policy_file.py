@@ -73,6 +73,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from rsoccer import checks
 from rsoccer.arrays import Array, Floats
 from rsoccer.files import read_safetensors, safetensors_bytes, write_atomically
 from rsoccer.history import ObservationStack
@@ -116,17 +117,17 @@ class Value:
     layers: list[tuple[Floats, Floats]]
     """weight (out, in) and bias (out,) of each layer; the last has one output"""
     discount: float
-    """discount of a decision, above 0 and at most 1"""
+    """discount of a decision, 0 to 1"""
     action_repeat: int
     """control steps of a decision in the training"""
     reward_std: float
     """rewards are divided by it, above 0"""
 
     def __post_init__(self) -> None:
-        """Refuse numbers out of range with a ValueError, and others with a TypeError."""
-        valid = 0.0 < self.discount <= 1.0 and 0.0 < self.reward_std < np.inf
-        if not (valid and type(self.action_repeat) is int and self.action_repeat >= 1):
-            raise ValueError("a number is out of range")
+        """Raise TypeError for numbers of other types, and ValueError for those out of range."""
+        checks.number_in_range("value.discount", self.discount, 0.0, 1.0)
+        checks.integer("value.action_repeat", self.action_repeat, 1)
+        checks.positive_number("value.reward_std", self.reward_std)
 
     @property
     def text(self) -> str:
@@ -313,8 +314,8 @@ def read_value(arrays: Mapping[str, Array], metadata: Mapping[str, str], size: i
         return Value(layers, **json.loads(text or ""))
     except (TypeError, ValueError) as error:
         raise ValueError(
-            "metadata 'value' should be a JSON object with discount (above 0, at most 1), "
-            f"action_repeat (1 or more) and reward_std (above 0), got {text!r}"
+            "metadata 'value' should be a JSON object with discount (0 to 1), action_repeat (1 or "
+            f"more) and reward_std (above 0), got {text!r}: {error}"
         ) from error
 
 

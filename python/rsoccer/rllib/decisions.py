@@ -89,10 +89,11 @@ class FixedTeams:
             actions: (n, agents, action) actions; changed in place.
         """
         for group, agents in self._groups.values():
-            worlds = np.flatnonzero(group.memory["drawn"] != NOBODY)
+            playing = group.memory["drawn"] != NOBODY
+            worlds = np.flatnonzero(playing)
             if len(worlds):
                 chosen = np.zeros_like(self._matches.play.actions)
-                group.act(self._matches.play, observations, chosen)
+                group.act(self._matches.play, observations, chosen, playing)
                 actions[np.ix_(worlds, agents)] = chosen[np.ix_(worlds, group.robots)]
 
 

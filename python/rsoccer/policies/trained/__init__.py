@@ -99,6 +99,8 @@ def load_lookahead(task: Task, variant: str | None = None) -> Lookahead:
     """
     name, path = _best_file(task, variant)
     try:
+        if _has_tactics(path):
+            raise ValueError(f"{LOOKAHEAD}: expected a network, but {path.name} has tactics")
         return Lookahead(Network.load(path), task)
     except ValueError as error:
         raise ValueError(f"{name}: {error}") from error

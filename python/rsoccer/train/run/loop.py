@@ -103,7 +103,7 @@ class Loop:
         """Return whether the callback ends the run."""
         if self._callback is None:
             return False
-        answer = self._callback(Update(self.trainer.args, dict(row), self.trainer.network))
+        answer = self._callback(Update(self.trainer.args, dict(row), self.trainer.saved_network))
         if answer is None:
             return False
         if not isinstance(answer, bool | np.bool_):  # NumPy's comparisons return the latter

@@ -260,7 +260,7 @@ class Trainer:
             )
 
     def network(self) -> Network:
-        """Return the current policy in NumPy, as it is saved and measured."""
+        """Return the current policy in NumPy, as it plays and is measured."""
         args, (mean, std) = self.args, self.collector.obs_rms.as_float32()
         network = self.model.export(
             self.task,
