@@ -149,6 +149,7 @@ TRIALS: Final = (
     Trial("VSS-v0", "best:robust"),
     Trial("VSSSelfPlay-v0", "best", "zero"),
     Trial("VSSSelfPlay-v0", "best", "zero", forecasts=True),
+    Trial("VSSSelfPlay-v0", "best:lookahead", "zero", forecasts=True),
     Trial("SSLContestedPossession-v0", "best"),
     Trial("SSLContestedPossession-v0", "best", forecasts=True),
     Trial("SSLContestedPossession-v0", "best:robust"),

@@ -13,8 +13,9 @@ from benches.learning.experiments import CLONES, PPO, SB3, Run, Study
 from benches.learning.run_files import DIGEST_DIGITS, Folders
 from rsoccer._core import build_info
 from rsoccer.benchmark.protocol import MATCHES
-from rsoccer.policies import make_policy
+from rsoccer.policies import Policy, make_policy
 from rsoccer.policies.network import Network
+from rsoccer.policies.policy_file import VALUE
 from rsoccer.registry import make_task
 from rsoccer.train.network.observation_mask import observation_mask
 
@@ -59,16 +60,23 @@ def _clones(run: Run) -> dict[str, Any]:
     policy = str(run.experiment.settings["policy"])
     if policy.startswith("@"):
         return {"policy": policy}
-    return {"policy": policy, "digest": _digest(policy, run.experiment.task)}
+    player = make_policy(policy, run.experiment.task)
+    return {"policy": policy, "digest": weights_digest(player)}
 
 
-def _digest(policy: str, task: str) -> str:
-    """Digest of the weights of a policy of the package, 12 hexadecimal digits."""
-    network = make_policy(policy, task)
-    if not isinstance(network, Network):
+def weights_digest(policy: Policy) -> str:
+    """Return a digest of the weights that a network plays with, 12 hexadecimal digits.
+
+    Its value network is no part of it, as only a lookahead plays with that.
+
+    Args:
+        policy: a policy; the digest of other policies than networks is empty.
+    """
+    if not isinstance(policy, Network):
         return ""
-    arrays = network.arrays()
-    content = b"".join(name.encode() + arrays[name].tobytes() for name in sorted(arrays))
+    arrays = policy.arrays()
+    names = sorted(name for name in arrays if not name.startswith(f"{VALUE}."))
+    content = b"".join(name.encode() + arrays[name].tobytes() for name in names)
     return hashlib.sha256(content).hexdigest()[:DIGEST_DIGITS]
 
 

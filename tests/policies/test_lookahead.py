@@ -170,6 +170,28 @@ def test_ended_matches_are_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
     assert planned == [4, 4, 2], "all have ended"
 
 
+def test_robots_that_the_shield_has_stand_do_not_plan(monkeypatch: pytest.MonkeyPatch) -> None:
+    task = make_task("VSSMatch-v0", half_seconds=5.0)
+    policy = planner(task, shield="vsss")
+    plan, planned = policy._planned, list[int]()
+
+    def counting(match: MatchState, last: Floats, rng: WorldRng) -> Floats:
+        planned.append(len(match.rows))
+        return plan(match, last, rng)
+
+    monkeypatch.setattr(policy, "_planned", counting)
+    matches = Matches(task, 2, controllers={"all": policy}, autoreset="disabled")
+    matches.reset()
+    stopped = 0
+    for _ in range(200):
+        before, may = len(planned), matches.play.game.may_touch.any(axis=1).copy()
+        matches.step(np.zeros((2, 0, 2), np.float32))
+        assert (len(planned) > before) == may.any()
+        assert (matches.play.actions[~may] == 0.0).all()
+        stopped += int(not may.any())
+    assert 0 < stopped < 200
+
+
 def test_a_single_robot_may_plan_beside_others() -> None:
     players: dict[str, Policy | str | Learn] = {"all": "zero", "blue_0": LEARN}
     matches = Matches(NAME, 2, controllers={**players, "blue_1": planner()})
@@ -242,12 +264,12 @@ def test_copies_play_alike() -> None:
         np.testing.assert_array_equal(played(other, 2, 3).frame.rows, expected)
 
 
-def test_shipped_policies_of_whole_teams_play_with_it() -> None:
-    for task in (NAME, "VSSMatch-v0"):
+def test_shipped_policies_play_with_it() -> None:
+    for task in (NAME, "VSSMatch-v0", "VSS-v0"):
         for name in ("best:lookahead", "best:robust:lookahead"):
             assert isinstance(make_policy(name, task), Lookahead)
     with pytest.raises(ValueError, match="best: lookahead: expected a policy with a value network"):
-        make_policy("best:lookahead", "VSS-v0")
+        make_policy("best:lookahead", "VSSMulti-v0")
     with pytest.raises(ValueError, match="best: lookahead: expected a network, but SSLMatch"):
         make_policy("best:lookahead", "SSLMatch-v0")
 

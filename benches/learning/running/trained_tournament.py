@@ -6,16 +6,17 @@ python -m benches.learning.running.trained_tournament
 from __future__ import annotations
 
 import dataclasses
-import hashlib
 import json
 import sys
 from pathlib import Path
 from typing import Any, Final
 
+from benches.learning.conditions import weights_digest
 from benches.learning.run_files import TOURNAMENT, TOURNAMENT_PICTURE, Folders
 from rsoccer.evaluate.tournament import tournament
 from rsoccer.files import write_atomically
 from rsoccer.policies import trained
+from rsoccer.policies.network import Network
 
 TASK: Final = "VSSSelfPlay-v0"
 SCRIPTS: Final = ("scripted", "chase", "ou", "zero")
@@ -47,8 +48,9 @@ def measure(matches: int, picture: Path) -> dict[str, Any]:
 
 
 def file_digests() -> dict[str, str]:
-    """Return the SHA-256 digests of the trained policies' files, by task."""
-    return {name: hashlib.sha256(path.read_bytes()).hexdigest() for name, path in _files().items()}
+    """Return what the trained policies play with, by task: weights, and steps of a decision."""
+    networks = {name: Network.load(path) for name, path in _files().items()}
+    return {name: f"{weights_digest(n)}, {n.action_repeat}" for name, n in networks.items()}
 
 
 def _files() -> dict[str, Path]:

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from rsoccer.arrays import Floats
+    from rsoccer.arrays import Floats, Mask
     from rsoccer.policies.base import MatchState, Memory, PolicyInput
     from rsoccer.policies.network import Network
     from rsoccer.rng import WorldRng
@@ -116,8 +116,9 @@ class Lookahead(Policy):
         match = inputs.match
         if match is None:
             raise ValueError(f"a {type(self).__name__} needs the state of the match, got none")
-        last = memory[_LAST]
-        worlds = np.arange(len(last)) if match.playing is None else match.playing.nonzero()[0]
+        last, acting = memory[_LAST], self._acting(match)
+        last[~acting] = 0.0
+        worlds = acting.nonzero()[0]
         for first in range(0, len(worlds), GROUP):
             group = worlds[first : first + GROUP]
             size = 1 << (len(group) - 1).bit_length()  # few sizes need few models
@@ -131,6 +132,13 @@ class Lookahead(Policy):
             self.network.shield.apply(match, actions)
             last[:, match.robots] = actions
         return inputs.completed(actions)
+
+    def _acting(self, match: MatchState) -> Mask:
+        """Worlds (n,) in which a robot may do anything: the shield has all stand in a stop."""
+        acting = np.ones(len(match.rows), np.bool_) if match.playing is None else match.playing
+        if self.network.shield is None or "referee" not in match.game:
+            return acting
+        return np.logical_and(acting, match.game.may_touch[:, match.robots].any(axis=1))
 
     def _planned(self, match: MatchState, last: Floats, rng: WorldRng) -> Floats:
         """Actions of all robots, (n, robots, action): the best ones, and means of others."""
