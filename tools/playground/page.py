@@ -9,7 +9,9 @@ from typing import Any, Final, NamedTuple
 
 import rsoccer
 from rsoccer._core import COMMAND_COLUMNS, SimConfig
-from rsoccer.policies.trained import FOLDER, load_best_network
+from rsoccer.policies.network import Network
+from rsoccer.policies.policy_file import VALUE
+from rsoccer.policies.trained import FOLDER, load_best_network, load_file
 from rsoccer.replay import match_page, page
 from rsoccer.replay.quantized import STEPS
 from tools.playground.keys import key_words, keys
@@ -162,13 +164,19 @@ def _league(league: League) -> dict[str, Any]:
 
 
 def _encoded(name: str) -> str:
-    """The file of a shipped policy in base64."""
+    """The file of a shipped policy in base64, of a network without what a lookahead needs."""
     if (FOLDER / name).exists():
-        return base64.b64encode((FOLDER / name).read_bytes()).decode()
-    task, field, *variant = name.split()
-    league = next(league for league in LEAGUES if league.field == field)
-    robots = {"n_blue": league.robots, "n_yellow": league.robots}
-    network = load_best_network(rsoccer.make_task(task, field=field, **robots), *variant)
+        policy = load_file(FOLDER / name)
+        if not isinstance(policy, Network):
+            return base64.b64encode((FOLDER / name).read_bytes()).decode()
+        network = policy
+    else:
+        task, field, *variant = name.split()
+        league = next(league for league in LEAGUES if league.field == field)
+        robots = {"n_blue": league.robots, "n_yellow": league.robots}
+        network = load_best_network(rsoccer.make_task(task, field=field, **robots), *variant)
+    network.value = None
+    network.metadata.pop(VALUE, None)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "policy.safetensors"
         network.save(path, half_precision=True)

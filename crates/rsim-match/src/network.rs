@@ -8,6 +8,8 @@ use crate::error::MatchError;
 use crate::files::{self, Array};
 
 const FORMAT: &str = "rsoccer-policy-2";
+/// Beginning of the names of the arrays of a value network.
+const VALUE: &str = "value.";
 /// Bound of `action_repeat`, control steps.
 const MAX_ACTION_REPEAT: u32 = 1_000_000;
 /// Most observations in a stacked one.
@@ -77,6 +79,8 @@ impl Network {
         } else {
             None
         };
+        // Its value network is for a lookahead, which tries actions in Python alone.
+        arrays.retain(|name, _| !name.starts_with(VALUE));
         if let Some(name) = arrays.keys().next() {
             return Err(wrong(&format!("unknown array {name:?}")));
         }
@@ -313,6 +317,8 @@ pub(crate) mod tests {
                 ("mean", &[inputs], &some(inputs)),
                 ("std", &[inputs], &vec![0.5; inputs]),
                 ("action_std", &[actions], &vec![0.1; actions]),
+                ("value.0.weight", &[1, inputs], &some(inputs)), // nothing here reads them
+                ("value.0.bias", &[1], &some(1)),
             ],
             &metadata,
         )
