@@ -16,9 +16,8 @@ from rsoccer.commands.subject import DEFAULT_TASK_HINT, check_policy_names, poli
 from rsoccer.commands.task_options import TASK_OPTIONS
 from rsoccer.policies.evolved import Evolved
 from rsoccer.policies.labels import labels
-from rsoccer.policies.names import LOOKAHEAD
 from rsoccer.policies.network import Network
-from rsoccer.policies.policy_file import MAX_ACTION_REPEAT, ONNX_SUFFIX, SUFFIX
+from rsoccer.policies.policy_file import LOOKAHEAD, MAX_ACTION_REPEAT, ONNX_SUFFIX, SUFFIX
 from rsoccer.task import Task
 
 _OUT_HINT = "(default: a file of the policy's name in the current folder)"

@@ -31,14 +31,9 @@ from pathlib import Path
 
 from rsoccer.policies import names
 from rsoccer.policies.base import Policy, PolicyInput
-from rsoccer.policies.names import (
-    LOOKAHEAD,
-    list_policies,
-    list_policies_with_skill,
-    register_policy,
-)
+from rsoccer.policies.names import list_policies, list_policies_with_skill, register_policy
 from rsoccer.policies.own_code import is_module_text, make_from_module
-from rsoccer.policies.policy_file import ONNX_SUFFIX, SUFFIX, SUFFIXES
+from rsoccer.policies.policy_file import LOOKAHEAD, ONNX_SUFFIX, SUFFIX, SUFFIXES
 from rsoccer.registry import as_task, make_task, task_with_options
 from rsoccer.task import Task
 

@@ -19,8 +19,8 @@ import numpy as np
 from rsoccer._core import Threads
 from rsoccer.policies.base import Observes, Policy
 from rsoccer.policies.forward_model import ForwardModel
-from rsoccer.policies.names import LOOKAHEAD
 from rsoccer.policies.other_task import fitted
+from rsoccer.policies.policy_file import LOOKAHEAD
 from rsoccer.registry import as_task, make_task, task_with_options
 from rsoccer.view import SIDES
 
@@ -165,7 +165,7 @@ class Lookahead(Policy):
         return np.clip(tried, -1.0, 1.0, out=tried)
 
     def _returns(self, match: MatchState, robots: Indices, tried: Floats) -> Floats:
-        """What robots of a team may expect together of what was tried, (n, candidates)."""
+        """Expected returns of what was tried, summed over robots of a team, (n, candidates)."""
         value, n = self.network.value, len(tried)
         assert value is not None, "checked by the constructor"
         model = self._model(robots.tolist(), n * CANDIDATES, match.threads)

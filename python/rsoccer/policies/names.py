@@ -29,8 +29,6 @@ be followed by a skill."""
 
 RESERVED: Final = ("LEARN", "all", "blue", "latest", "past", "yellow")
 """Names that stand for learners, robots or opponents of self-play."""
-LOOKAHEAD: Final = "lookahead"
-"""Word after the name of a trained policy, or after its file: it plays with a lookahead."""
 _NAME: Final = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 
 

@@ -8,8 +8,8 @@ from typing import Final
 
 from rsoccer import plugins
 from rsoccer.policies.base import Policy
-from rsoccer.policies.names import LOOKAHEAD, check_maker, find, make_with
-from rsoccer.policies.policy_file import SUFFIX
+from rsoccer.policies.names import check_maker, find, make_with
+from rsoccer.policies.policy_file import LOOKAHEAD, SUFFIX
 from rsoccer.task import Task
 
 _TEXT: Final = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*(\.[A-Za-z_]\w*)*")

@@ -99,6 +99,9 @@ ONNX_SUFFIX: Final = ".onnx"
 SUFFIXES: Final = (SUFFIX, ONNX_SUFFIX)
 """Ends of the names of files that play as policies."""
 
+LOOKAHEAD: Final = "lookahead"
+"""Word after the path of a file, or after the name of its policy: it plays with a lookahead."""
+
 TACTICS_FORMAT: Final = "rsoccer-tactics-1"
 """Version of the files of `rsoccer.policies.evolved`. A new one makes older readers refuse them."""
 INSTALL_HINT: Final = "writing policy files needs safetensors: pip install 'rsoccer[train]'"

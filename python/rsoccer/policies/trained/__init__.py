@@ -15,10 +15,9 @@ from typing import Final
 from rsoccer.policies import policy_file, training_conditions
 from rsoccer.policies.evolved import Evolved, is_tactics
 from rsoccer.policies.lookahead import Lookahead
-from rsoccer.policies.names import LOOKAHEAD
 from rsoccer.policies.network import MODES, Network
 from rsoccer.policies.other_task import fitted
-from rsoccer.policies.policy_file import Score
+from rsoccer.policies.policy_file import LOOKAHEAD, Score
 from rsoccer.task import Task
 
 BEST: Final = "best"
@@ -93,6 +92,9 @@ def load_lookahead(task: Task, variant: str | None = None) -> Lookahead:
     Args:
         task: the task that is played.
         variant: "robust" for the policy for late and noisy senses; None for the other one.
+
+    Returns:
+        The policy of the file that `load_best` finds, with a lookahead.
 
     Raises:
         ValueError: no policy for this task, or one without a value network.
