@@ -6,7 +6,7 @@
 | --- | --- | --- |
 | `best` | any | the trained policy of the task, where the package has one |
 | `best:robust` | any | the one for late and noisy senses, on some tasks |
-| `best:lookahead` | VSSS | `best` of whole teams and matches, which tries actions in a model |
+| `best:lookahead` | VSSS | `best`, which tries actions in a model, on some tasks |
 | `zero` | any | stands still |
 | `uniform` | any | independent uniform random actions |
 | `ou` | any | actions of an Ornstein-Uhlenbeck process |
@@ -34,7 +34,7 @@ from rsoccer.policies.base import Policy, PolicyInput
 from rsoccer.policies.names import list_policies, list_policies_with_skill, register_policy
 from rsoccer.policies.own_code import is_module_text, make_from_module
 from rsoccer.policies.policy_file import LOOKAHEAD, ONNX_SUFFIX, SUFFIX, SUFFIXES
-from rsoccer.registry import as_task, make_task, task_with_options
+from rsoccer.registry import as_task, make_task
 from rsoccer.task import Task
 
 __all__ = ["Policy", "PolicyInput", "list_policies", "list_policies_with_skill"]
@@ -189,10 +189,9 @@ def _text(policy: str | os.PathLike[str]) -> str:
 
 def _make_best(task: Task, detail: str | None) -> Policy:
     """The trained policy of a task."""
-    from rsoccer.policies.trained import load_best, load_lookahead, variant_of_lookahead
+    from rsoccer.policies.trained import make_best
 
-    variant = variant_of_lookahead(detail)
-    return load_best(task, detail) if variant is None else load_lookahead(task, variant or None)
+    return make_best(task, detail)
 
 
 def file_of(policy: str) -> Path | None:
@@ -216,24 +215,11 @@ def _load(text: str, task: Task | None = None) -> Policy:
         from rsoccer.policies.onnx_policy import OnnxPolicy
 
         return OnnxPolicy.load(path, mode, task)
+    from rsoccer.policies.trained import load_file, load_lookahead
+
     if mode == LOOKAHEAD:
-        return _load_lookahead(path, task)
-    from rsoccer.policies.trained import load_file
-
+        return load_lookahead(path, Path(path), task)
     return load_file(Path(path), mode, task)
-
-
-def _load_lookahead(path: str, task: Task | None) -> Policy:
-    """The network of a policy file, with a lookahead."""
-    from rsoccer.policies.lookahead import Lookahead
-    from rsoccer.policies.network import Network
-
-    network = Network.load(path)
-    try:
-        own = task_with_options(network.task_name, network.task_options)
-        return Lookahead(network, own if task is None else task)
-    except ValueError as error:
-        raise ValueError(f"{path}: {error}") from error
 
 
 def _expected(path: str) -> str:

@@ -163,9 +163,7 @@ class Network(HeldActions):
             name: np.broadcast_to(np.asarray(value, np.float32), inputs).copy()
             for name, value in (("mean", mean), ("std", std))
         }
-        for index, (weight, bias) in enumerate(parts):
-            arrays[f"layers.{index}.weight"] = weight
-            arrays[f"layers.{index}.bias"] = bias
+        arrays |= policy_file.named_layers(policy_file.POLICY, parts)
         for name, array in (("action_std", action_std), ("action_table", action_table)):
             if array is not None:
                 arrays[name] = np.asarray(array, np.float32)
@@ -330,9 +328,7 @@ class Network(HeldActions):
         optional = {"action_std": self.head.action_std, "action_table": self.head.table}
         named = {"mean": self.mean, "std": self.std}
         named |= {name: array for name, array in optional.items() if array is not None}
-        for index, (weight, bias) in enumerate(self.layers):
-            named[f"layers.{index}.weight"] = weight
-            named[f"layers.{index}.bias"] = bias
+        named |= policy_file.named_layers(policy_file.POLICY, self.layers)
         named |= {} if self.value is None else self.value.arrays()
         return {name: np.ascontiguousarray(array).copy() for name, array in named.items()}
 

@@ -13,12 +13,15 @@ from typing import Final
 
 import numpy as np
 
-from rsoccer.arrays import Array
+from rsoccer.arrays import Array, Floats
 from rsoccer.history import ObservationStack
 from rsoccer.observation_layout import ObservationLayout
 from rsoccer.policies.network import Network
 from rsoccer.registry import task_with_options
 from rsoccer.task import Task
+
+Layers = list[tuple[Floats, Floats]]
+"""Weight (out, in) and bias (out,) of each layer."""
 
 SELF_AND_BALL: Final = 1
 """Rows of `body_positions` and `presence` before those of other robots: ball, and the robot."""
@@ -71,21 +74,23 @@ def fitted(policy: Network, task: Task) -> Network:
     actions = np.arange(policy.action_size)
     from_columns = stack.columns(policy.history, from_columns, actions)
     to_columns = wider.columns(policy.history, to_columns, actions)
-    (weight, bias), *others = policy.layers
     size = wider.size
-    first = np.zeros((len(weight), size), np.float32)
-    first[:, to_columns] = weight[:, from_columns]
+
+    def widened(layers: Layers) -> Layers:
+        """The same layers for the wider observation."""
+        (weight, bias), *others = layers
+        first = np.zeros((len(weight), size), np.float32)
+        first[:, to_columns] = weight[:, from_columns]
+        return [(first, bias), *others]
+
     mean, std = np.zeros(size, np.float32), np.ones(size, np.float32)
     mean[to_columns], std[to_columns] = policy.mean[from_columns], policy.std[from_columns]
-    *hidden, (last, last_bias) = (first, bias), *others
+    *hidden, (last, last_bias) = widened(policy.layers)
     more = task.action_size - policy.action_size
     last, last_bias = np.pad(last, ((0, more), (0, 0))), np.pad(last_bias, (0, more))
     deviation, value = policy.action_std, policy.value
     if value is not None:
-        (weight, value_bias), *value_others = value.layers
-        columns = np.zeros((len(weight), size), np.float32)
-        columns[:, to_columns] = weight[:, from_columns]
-        value = replace(value, layers=[(columns, value_bias), *value_others])
+        value = replace(value, layers=widened(value.layers))
     network = Network.from_layers(
         task,
         [*hidden, (last, last_bias)],

@@ -66,7 +66,7 @@ from __future__ import annotations
 
 import itertools
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, Final
@@ -140,8 +140,7 @@ class Value:
 
     def arrays(self) -> dict[str, Floats]:
         """Return its layers by their names in the file; not copied."""
-        arrays = itertools.chain.from_iterable(self.layers)
-        return dict(zip(_names(VALUE, len(self.layers)), arrays, strict=True))
+        return named_layers(VALUE, self.layers)
 
 
 @dataclass(frozen=True)
@@ -330,6 +329,17 @@ def _count(arrays: Mapping[str, Array], network: str) -> int:
 def _names(network: str, count: int) -> list[str]:
     """Names of the arrays of a network with some layers."""
     return [f"{network}.{index}.{part}" for index in range(count) for part in ("weight", "bias")]
+
+
+def named_layers(network: str, layers: Sequence[tuple[Floats, Floats]]) -> dict[str, Floats]:
+    """Return the arrays of a network by their names in the file; not copied.
+
+    Args:
+        network: `POLICY` or `VALUE`.
+        layers: weight and bias of each layer.
+    """
+    arrays = itertools.chain.from_iterable(layers)
+    return dict(zip(_names(network, len(layers)), arrays, strict=True))
 
 
 def _read_network(arrays: Mapping[str, Array], network: str) -> list[tuple[Floats, Floats]]:

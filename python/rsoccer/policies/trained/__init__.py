@@ -13,11 +13,13 @@ from pathlib import Path
 from typing import Final
 
 from rsoccer.policies import policy_file, training_conditions
+from rsoccer.policies.base import Policy
 from rsoccer.policies.evolved import Evolved, is_tactics
 from rsoccer.policies.lookahead import Lookahead
 from rsoccer.policies.network import MODES, Network
 from rsoccer.policies.other_task import fitted
 from rsoccer.policies.policy_file import LOOKAHEAD, Score
+from rsoccer.registry import task_with_options
 from rsoccer.task import Task
 
 BEST: Final = "best"
@@ -86,24 +88,44 @@ def load_best(task: Task, detail: str | None = None) -> Network | Evolved:
     return _loaded(name, path, mode, task)
 
 
-def load_lookahead(task: Task, variant: str | None = None) -> Lookahead:
-    """Load the trained policy of a task, to play it with a lookahead.
+def make_best(task: Task, detail: str | None = None) -> Policy:
+    """Return the trained policy of a task, with a lookahead if the detail says so.
 
     Args:
         task: the task that is played.
-        variant: "robust" for the policy for late and noisy senses; None for the other one.
-
-    Returns:
-        The policy of the file that `load_best` finds, with a lookahead.
+        detail: as for `load_best`, or "lookahead" or "robust:lookahead".
 
     Raises:
-        ValueError: no policy for this task, or one without a value network.
+        ValueError: see `load_best`, or a policy that cannot play with a lookahead.
     """
+    variant, mode = _variant_and_mode(detail)
+    if mode != LOOKAHEAD:
+        return load_best(task, detail)
     name, path = _best_file(task, variant)
+    return load_lookahead(name, path, task)
+
+
+def load_lookahead(name: str, path: Path, task: Task | None) -> Lookahead:
+    """Load the network of a file, to play it with a lookahead.
+
+    Args:
+        name: what the user called the policy.
+        path: the file.
+        task: the task that is played; None for that of the training.
+
+    Returns:
+        The network with a lookahead.
+
+    Raises:
+        FileNotFoundError: no such file.
+        ValueError: a file without a network, or one that cannot play with a lookahead.
+    """
     try:
-        if _has_tactics(path):
+        if path.exists() and _has_tactics(path):
             raise ValueError(f"{LOOKAHEAD}: expected a network, but {path.name} has tactics")
-        return Lookahead(Network.load(path), task)
+        network = Network.load(path)
+        own = task_with_options(network.task_name, network.task_options) if task is None else task
+        return Lookahead(network, own)
     except ValueError as error:
         raise ValueError(f"{name}: {error}") from error
 
@@ -214,22 +236,13 @@ def _ending(variant: str | None) -> str:
     return policy_file.SUFFIX if variant is None else f".{variant}{policy_file.SUFFIX}"
 
 
-def variant_of_lookahead(detail: str | None) -> str | None:
-    """Return the variant in a detail that asks for a lookahead, "" for none; None for others.
-
-    Args:
-        detail: what follows the name `best`, such as "lookahead" or "robust:lookahead".
-    """
-    return {LOOKAHEAD: "", f"{ROBUST}:{LOOKAHEAD}": ROBUST}.get(detail or "")
-
-
 def _variant_and_mode(detail: str | None) -> tuple[str | None, str | None]:
     """Variant and mode that follow the name; None for the usual ones."""
     if detail is None:
         return None, None
     first, colon, rest = detail.partition(":")
     variant, mode = (ROBUST, rest if colon else None) if first == ROBUST else (None, detail)
-    if mode not in (None, *MODES):
+    if mode not in (None, *MODES, LOOKAHEAD):
         expected = (*MODES, LOOKAHEAD, *(() if variant else (ROBUST,)))
         raise ValueError(f"{BEST}: expected one of {expected} after the colon, got {mode!r}")
     return variant, mode
