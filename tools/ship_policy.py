@@ -39,7 +39,7 @@ from rsoccer.files import write_atomically
 from rsoccer.policies import trained, training_conditions
 from rsoccer.policies.evolved import Evolved
 from rsoccer.policies.network import Network
-from rsoccer.policies.policy_file import SUFFIX, VALUE, Score, scores_text
+from rsoccer.policies.policy_file import SUFFIX, Score, scores_text
 from rsoccer.sensing_text import describe
 from rsoccer.task import Task
 from rsoccer.train.args import CHANGEABLE_ON_RESUME, SETTINGS_FILE
@@ -191,8 +191,7 @@ def add_value(run: Path) -> list[Path]:
         if path is None or policy is None or not _same_play(policy, network):
             continue
         layers = _for_normalization(network.value.layers, network, policy)
-        policy.value = replace(network.value, layers=layers)
-        policy.metadata[VALUE] = policy.value.text
+        policy.set_value(replace(network.value, layers=layers))
         with tempfile.TemporaryDirectory() as folder:
             candidate = Path(folder) / path.name
             policy.save(candidate, half_precision=True)

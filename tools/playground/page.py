@@ -10,7 +10,6 @@ from typing import Any, Final, NamedTuple
 import rsoccer
 from rsoccer._core import COMMAND_COLUMNS, SimConfig
 from rsoccer.policies.network import Network
-from rsoccer.policies.policy_file import VALUE
 from rsoccer.policies.trained import FOLDER, load_best_network, load_file
 from rsoccer.replay import match_page, page
 from rsoccer.replay.quantized import STEPS
@@ -175,8 +174,7 @@ def _encoded(name: str) -> str:
         league = next(league for league in LEAGUES if league.field == field)
         robots = {"n_blue": league.robots, "n_yellow": league.robots}
         network = load_best_network(rsoccer.make_task(task, field=field, **robots), *variant)
-    network.value = None
-    network.metadata.pop(VALUE, None)
+    network.set_value(None)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "policy.safetensors"
         network.save(path, half_precision=True)

@@ -288,6 +288,17 @@ class Network(HeldActions):
         values: Floats = self._outputs_of(self.value.layers, observations)[..., 0]
         return values
 
+    def set_value(self, value: Value | None) -> None:
+        """Replace the value network, in the metadata too.
+
+        Args:
+            value: the value network; None to remove it.
+        """
+        self.value = value
+        self.metadata.pop(policy_file.VALUE, None)
+        if value is not None:
+            self.metadata[policy_file.VALUE] = value.text
+
     def _outputs_of(self, layers: list[tuple[Floats, Floats]], observations: Floats) -> Floats:
         """Outputs of the policy or of the value network, (..., outputs)."""
         if observations.shape[-1] != self.observation_size:

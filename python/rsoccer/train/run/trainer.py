@@ -18,7 +18,7 @@ from rsoccer.matches import Matches
 from rsoccer.policies import training_conditions
 from rsoccer.policies.layers import read_layers
 from rsoccer.policies.network import Network
-from rsoccer.policies.policy_file import VALUE, Value
+from rsoccer.policies.policy_file import Value
 from rsoccer.policies.shield import Shield
 from rsoccer.sources import closed_on_error
 from rsoccer.train.args import Args
@@ -291,8 +291,7 @@ class Trainer:
         discount = discount_per_decision(args.ppo, repeat, self.progress)
         reward_std = float(self.collector.return_rms.std[0])
         layers, _ = read_layers(self.model.critic)
-        network.value = Value(layers, discount, repeat, reward_std)
-        network.metadata[VALUE] = network.value.text
+        network.set_value(Value(layers, discount, repeat, reward_std))
         return network
 
 
