@@ -35,6 +35,7 @@ __all__ = [
     "STATISTICS_COLUMNS",
     "TACTICS",
     "AreaShield",
+    "AttackShield",
     "BallModel",
     "EgoFeatures",
     "Field",
@@ -1196,6 +1197,45 @@ class AreaShield:
             rows: (n, row) states as the robots know them.
             robots: (k,) indices of the robots in a state row.
             actions: (n, k, 2) speeds of the left and the right wheel, -1 to 1; changed in place.
+            threads: Threads that share the work.
+
+        Raises:
+            TypeError: Arrays of other types.
+            ValueError: Arrays of other shapes, or an index without a robot.
+        """
+
+@final
+class AttackShield:
+    """Shield that brakes SSL robots before what ends an episode of the attack challenges.
+
+    These are opponents, the goal area that the team attacks, the lines of the field, and the
+    robot's own half from 0.15 m behind the center line. The shield takes from a commanded velocity
+    the part toward each of them from which the robot could not stop 0.02 m in front of it, with 0.7
+    of its deceleration and 50 ms until the velocity acts. A robot that is too fast brakes before it
+    turns aside; one that is too near leaves with up to 0.5 m/s. Opponents count as discs at rest.
+
+    Args:
+        config: Field and robots.
+
+    Raises:
+        ValueError: Robots without an omnidirectional drive.
+    """
+
+    def __new__(cls, config: SimConfig) -> AttackShield: ...
+    def apply(
+        self,
+        rows: NDArray[np.float32],
+        robots: Sequence[int],
+        actions: NDArray[np.float32],
+        threads: Threads | None = None,
+    ) -> None:
+        """Change the velocities of robots that could not stop in time.
+
+        Args:
+            rows: (n, row) states as the robots know them.
+            robots: (k,) indices of the robots in a state row.
+            actions: (n, k, action) actions with at least two numbers, the velocity toward the
+                attacked goal and to the left, -1 to 1; changed in place.
             threads: Threads that share the work.
 
         Raises:

@@ -1,4 +1,4 @@
-"""Shields of policies against fouls in goal areas."""
+"""Shields of policies against fouls."""
 
 from collections import Counter
 from pathlib import Path
@@ -8,16 +8,18 @@ import numpy as np
 import pytest
 
 import rsoccer
-from rsoccer import LEARN, Matches
-from rsoccer._core import AreaShield, Threads
+from rsoccer import LEARN, Matches, list_tasks, make_task
+from rsoccer._core import AreaShield, AttackShield, Threads
 from rsoccer.arrays import Floats
 from rsoccer.frame import Frame
 from rsoccer.game import EventKind
 from rsoccer.history import ObservationStack
-from rsoccer.policies import make_policy
+from rsoccer.policies import Policy, PolicyInput, make_policy
+from rsoccer.policies.base import Memory
 from rsoccer.policies.network import Network
-from rsoccer.policies.shield import Shield
-from rsoccer.tasks import SslMatch, VssMatch
+from rsoccer.policies.shield import SHIELDS, Shield, shield_error
+from rsoccer.rng import WorldRng
+from rsoccer.tasks import SslMatch, SslStaticDefenders, VssMatch
 from rsoccer.train import Args
 from rsoccer.train.rollout.transition import repeat_action
 from tests.games import begin_play
@@ -81,9 +83,12 @@ def test_wrong_arrays_are_named(changes: dict[str, Any], error: type, message: s
 def test_other_drives_and_other_names_are_refused() -> None:
     with pytest.raises(ValueError, match="expected robots with a differential drive"):
         AreaShield(SslMatch().config)
-    with pytest.raises(ValueError, match=r"shield: expected one of \('vsss',\), got 'walls'"):
+    with pytest.raises(ValueError, match="expected robots with an omnidirectional drive"):
+        AttackShield(TASK.config)
+    names = r"\('vsss', 'ssl_attack'\)"
+    with pytest.raises(ValueError, match=rf"shield: expected one of {names}, got 'walls'"):
         Shield("walls")
-    with pytest.raises(ValueError, match=r"network\.shield must be one of vsss, got 'walls'"):
+    with pytest.raises(ValueError, match=r"network\.shield must be one of vsss, ssl_attack, got 'w"):
         Args.from_json({"task": "VSSMatch-v0", "network.shield": "walls"})
 
 
@@ -157,6 +162,85 @@ def test_trainings_act_behind_it(tmp_path: Path) -> None:
     assert trained.metadata["shield"] == "vsss"
     with pytest.raises(ValueError, match=r"^network\.shield: config: expected robots with a diff"):
         rsoccer.train.train(Args.from_json({**settings, "task": "SSLMatch-v0"}))
+    attack = {**settings, "network.shield": "ssl_attack"}
+    with pytest.raises(ValueError, match=r"^network\.shield: expected an attack challenge of the S"):
+        rsoccer.train.train(Args.from_json(attack))
+
+
+TASKS_OF_SHIELDS = {
+    "vsss": {"VSSMatch-v0", "VSSSelfPlay-v0", "VSS-v0", "VSSMulti-v0"},
+    "ssl_attack": {"SSLStaticDefenders-v0", "SSLContestedPossession-v0"},
+}
+
+
+@pytest.mark.parametrize("name", SHIELDS)
+def test_a_shield_acts_in_the_tasks_of_its_rules(name: str) -> None:
+    fitting = {task for task in list_tasks() if shield_error(name, make_task(task)) is None}
+    assert fitting == TASKS_OF_SHIELDS[name]
+
+
+def test_velocities_in_the_axes_of_the_robot_have_no_shield() -> None:
+    task = SslStaticDefenders(velocity_frame="robot")
+    assert "axes of the field" in str(shield_error("ssl_attack", task))
+
+
+def attack_ends(shield: str | None) -> Counter[str]:
+    """Ends of 200 attacks of a robot that drives at the ball with full speed, and kicks."""
+
+    class Rush(Policy):
+        observes = "view"
+
+        def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
+            view = inputs.required_view("rush")
+            actions = np.zeros(inputs.action_shape, np.float32)
+            offset = view.ball.position - view.ego.position
+            actions[..., :2] = offset / np.maximum(np.abs(offset).max(-1, keepdims=True), 1e-6)
+            if shield is not None and inputs.match is not None:
+                Shield(shield).apply(inputs.match, actions)
+            return actions
+
+    task = SslStaticDefenders(max_steps=200)
+    matches = Matches(task, 200, controllers={"blue": Rush()}, autoreset="disabled")
+    matches.reset()
+    ends: Counter[str] = Counter()
+    for _ in range(200):
+        running = ~matches.done
+        matches.step(np.zeros((200, 0, 5), np.float32))
+        ended = running & matches.done
+        frame = matches.frame
+        ends["touch"] += int((ended & (frame.blue.touched_opponent[:, 0] > 0.5)).sum())
+        position = frame.blue.position[:, 0]
+        outside = task.is_off_field(position) | (position[:, 0] < -0.2)
+        ends["outside"] += int((ended & outside).sum())
+        ends["area"] += int((ended & task.is_in_goal_area(position)).sum())
+    return ends
+
+
+def test_a_robot_at_full_speed_stops_before_opponents_lines_and_the_goal_area() -> None:
+    """None, where the same robot without the shield ends many episodes."""
+    without, behind = attack_ends(None), attack_ends("ssl_attack")
+    assert without["touch"] > 40
+    assert without["outside"] + without["area"] > 10
+    assert behind["touch"] <= 2
+    assert behind["outside"] + behind["area"] <= 2
+
+
+def test_the_shield_of_attacks_is_the_same_for_any_number_of_threads() -> None:
+    config = SslStaticDefenders().config
+    rng = np.random.default_rng(0)
+    rows = Frame.empty(600, 1, 6)
+    rows.robots.position[:] = rng.uniform((0.0, -2.0), (3.0, 2.0), (600, 7, 2))
+    drawn = rng.uniform(-1.0, 1.0, (600, 1, 5)).astype(np.float32)
+    alone, shared = drawn.copy(), drawn.copy()
+    AttackShield(config).apply(rows.rows, [0], alone)
+    AttackShield(config).apply(rows.rows, [0], shared, Threads(2))
+    assert same(alone, shared)
+    assert same(alone[..., 2:], drawn[..., 2:])
+    changed = (alone != drawn).any(axis=(1, 2))
+    assert 50 < changed.sum() < 550
+    assert np.abs(alone).max() <= 1.0
+    with pytest.raises(ValueError, match="actions: expected at least 2 numbers a robot, got 1"):
+        AttackShield(config).apply(rows.rows, [0], drawn[..., :1].copy())
 
 
 @pytest.mark.parametrize("sensing", [None, "rc2021, forecast=1"])

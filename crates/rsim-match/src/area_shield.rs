@@ -89,11 +89,6 @@ impl AreaShield {
         })
     }
 
-    /// Number of robots of both teams.
-    pub fn n_robots(&self) -> usize {
-        self.layout.robots()
-    }
-
     /// Changes the action of a robot, the speeds of its wheels from -1 to 1, where it would be one too many in an
     /// area. `row` is the state that the robot knows.
     pub fn apply(&self, row: &[f32], robot: usize, action: &mut [f32]) {

@@ -7,6 +7,7 @@
 
 mod actions;
 mod area_shield;
+mod attack_shield;
 mod conditions;
 mod error;
 mod files;
@@ -22,6 +23,7 @@ mod side;
 mod whole_match;
 
 pub use area_shield::AreaShield;
+pub use attack_shield::AttackShield;
 pub use conditions::Conditions;
 pub use error::MatchError;
 pub use knowledge::{layout, lines, pitch, team_config};

@@ -3,7 +3,6 @@
 #![deny(unsafe_code)]
 #![allow(clippy::needless_pass_by_value)] // PyO3 hands arrays over by value
 
-mod area_shield;
 mod arguments;
 mod arrays;
 mod bounds;
@@ -16,6 +15,7 @@ mod moments;
 mod referee;
 mod scripted_team;
 mod shaping;
+mod shields;
 mod simulator;
 mod steering;
 mod streams;
@@ -28,8 +28,6 @@ use pyo3::prelude::*;
 /// Physics of robot soccer.
 #[pymodule]
 mod _core {
-    #[pymodule_export]
-    use crate::area_shield::AreaShield;
     #[pymodule_export]
     use crate::bounds::{clip_actions, clip_in_place};
     #[pymodule_export]
@@ -48,6 +46,8 @@ mod _core {
     use crate::scripted_team::ScriptedTeam;
     #[pymodule_export]
     use crate::shaping::{Potential, mean_action_magnitude, nearest_to_ball};
+    #[pymodule_export]
+    use crate::shields::{AreaShield, AttackShield};
     #[pymodule_export]
     use crate::simulator::Simulator;
     #[pymodule_export]

@@ -144,7 +144,7 @@ class Network(HeldActions):
             sensing: what robots knew of the true state in the training, as for `Matches`; a note
                 in the file, which does not change how the policy plays.
             randomization: numbers that each episode of the training drew; a note, too.
-            shield: "vsss" to change actions against rules of VSSS, see
+            shield: "vsss" or "ssl_attack" to change actions against rules, see
                 `rsoccer.policies.shield`; None for none.
             value: the value network of the training, with which `rsoccer.policies.lookahead` plays;
                 None without one.

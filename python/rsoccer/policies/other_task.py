@@ -17,6 +17,7 @@ from rsoccer.arrays import Array, Floats
 from rsoccer.history import ObservationStack
 from rsoccer.observation_layout import ObservationLayout
 from rsoccer.policies.network import Network
+from rsoccer.policies.shield import shield_error
 from rsoccer.registry import task_with_options
 from rsoccer.task import Task
 
@@ -40,7 +41,8 @@ def fitted(policy: Network, task: Task) -> Network:
         task: the task to play or to train on.
 
     Returns:
-        The policy for the task, in the same mode, with the same history and shield.
+        The policy for the task, in the same mode, with the same history, and with its shield if it
+        may act there.
 
     Raises:
         ValueError: a policy of the other league, with other observations than those of its task,
@@ -91,6 +93,9 @@ def fitted(policy: Network, task: Task) -> Network:
     deviation, value = policy.action_std, policy.value
     if value is not None:
         value = replace(value, layers=widened(value.layers))
+    shield = policy.metadata.get("shield")
+    if shield is not None and shield_error(shield, task) is not None:
+        shield = None
     network = Network.from_layers(
         task,
         [*hidden, (last, last_bias)],
@@ -103,7 +108,7 @@ def fitted(policy: Network, task: Task) -> Network:
         clip=float(policy.clip),
         sensing=policy.sensing,
         randomization=policy.randomization,
-        shield=policy.metadata.get("shield"),
+        shield=shield,
         value=value,
     )
     network.mode = policy.mode

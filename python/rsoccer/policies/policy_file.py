@@ -33,7 +33,7 @@ The metadata are text:
 | `clip` | above 0, default 10 | bound of a normalized observation, in standard deviations |
 | `action_repeat` | 1 (default) to 1000000 | control steps for which an action is held |
 | `history` | 1 (default) or more | observations in a stacked one, see `rsoccer.history` |
-| `shield` | `vsss`; optional | changes actions against rules, see `shield` |
+| `shield` | `vsss` or `ssl_attack`; optional | changes actions against rules, see `shield` |
 | `value` | JSON object; with `value.<i>` | `discount`, `action_repeat`, `reward_std`, see below |
 | `layout` | `Task.layout`; optional | observation blocks of the task; must equal those in play |
 | `training` | JSON object; optional | `command`, `samples`, `seed`, `package`, `physics` |

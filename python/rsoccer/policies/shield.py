@@ -1,9 +1,13 @@
-"""Shields: they change actions of a policy that would break a rule of the referee.
+"""Shields: they change actions of a policy that would break a rule.
 
-A policy that has learned without a referee may play well and yet lose what it wins to fouls. A
-shield leaves its actions alone but for those: "vsss" keeps robots of VSSS out of goal areas in
-which the league allows no more of their team (`rsoccer._core.AreaShield`), and has them stand
-while they may not touch the ball. It acts in matches under a referee alone.
+A policy that has learned to play well may yet lose what it wins to fouls. A shield leaves its
+actions alone but for those:
+
+- "vsss" keeps robots of VSSS out of goal areas in which the league allows no more of their team
+  (`rsoccer._core.AreaShield`), and has them stand while they may not touch the ball. It acts in
+  matches under a referee alone.
+- "ssl_attack" brakes the robot of the SSL attack challenges before opponents, the goal area and the
+  limits of the half (`rsoccer._core.AttackShield`).
 """
 
 from __future__ import annotations
@@ -12,15 +16,21 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from rsoccer._core import AreaShield
+from rsoccer._core import AreaShield, AttackShield
 
 if TYPE_CHECKING:
     from rsoccer._core import SimConfig
     from rsoccer.arrays import Floats
     from rsoccer.policies.base import MatchState
+    from rsoccer.task import Task
 
-SHIELDS: Final = ("vsss",)
+SHIELDS: Final = ("vsss", "ssl_attack")
 """Names of shields."""
+
+_CORES: Final[dict[str, type[AreaShield | AttackShield]]] = {
+    "vsss": AreaShield,
+    "ssl_attack": AttackShield,
+}
 
 
 class Shield:
@@ -37,25 +47,46 @@ class Shield:
         """
         if name not in SHIELDS:
             raise ValueError(f"shield: expected one of {SHIELDS}, got {name!r}")
-        self._built: tuple[SimConfig, AreaShield] | None = None
+        self.name = name
+        self._built: tuple[SimConfig, AreaShield | AttackShield] | None = None
 
     def apply(self, match: MatchState, actions: Floats) -> None:
-        """Change actions where the referee would be against them.
+        """Change actions that would be against the rules.
 
         Args:
             match: the match as the robots know it.
             actions: (n, robots, action) actions of its robots; changed in place.
 
         Raises:
-            ValueError: robots without a differential drive.
+            ValueError: robots with another drive than those of its league.
         """
-        if "referee" not in match.game:
+        is_refereed = "referee" in match.game
+        if is_refereed != (self.name == "vsss"):
             return
         built = self._built
         if built is None or built[0] is not match.config:
-            built = self._built = match.config, AreaShield(match.config)
+            built = self._built = match.config, _CORES[self.name](match.config)
         changed = np.ascontiguousarray(actions, np.float32)
         built[1].apply(match.rows, match.robots.tolist(), changed, match.threads)
-        changed[~match.game.may_touch[:, match.robots]] = 0.0
+        if is_refereed:
+            changed[~match.game.may_touch[:, match.robots]] = 0.0
         if changed is not actions:
             actions[...] = changed
+
+
+def shield_error(name: str, task: Task) -> str | None:
+    """Return why a task has no use for a shield; None if it may act there.
+
+    Args:
+        name: one of `SHIELDS`.
+        task: the task to play.
+    """
+    if name == "ssl_attack" and not getattr(task, "half_only", False):
+        return f"expected an attack challenge of the SSL, got {task.name}"
+    if getattr(task, "velocity_frame", "field") != "field":
+        return f"expected velocities in the axes of the field, got those of the robot in {task.name}"
+    try:
+        _CORES[name](task.config)
+    except ValueError as error:
+        return str(error)
+    return None

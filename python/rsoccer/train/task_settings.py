@@ -109,6 +109,8 @@ TASK_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
     "SSLStaticDefenders-v0": {
         **_STATIC_DEFENDERS,
         "samples": 40 * M,
+        # Half of the failures of a policy without it are touches of opponents.
+        "network.shield": "ssl_attack",
         "task_options": {
             "random_start": True,
             "scenario_fraction": 0.3,

@@ -34,7 +34,7 @@ class NetworkSettings:
     initial_policy: str | None = None
     """policy whose weights it begins with: best, a policy file, or another task for its best"""
     shield: str | None = None
-    """vsss keeps robots from fouls of VSSS, in training and play"""
+    """vsss or ssl_attack keeps robots from fouls, in training and play"""
     play_action_repeat: Count | None = None
     """control steps for which the saved policy holds a decision; None is as in training"""
 

@@ -12,14 +12,13 @@ from collections.abc import Callable
 import numpy as np
 import torch
 
-from rsoccer._core import AreaShield
 from rsoccer.history import ObservationStack
 from rsoccer.matches import Matches
 from rsoccer.policies import training_conditions
 from rsoccer.policies.layers import read_layers
 from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import Value
-from rsoccer.policies.shield import Shield
+from rsoccer.policies.shield import Shield, shield_error
 from rsoccer.sources import closed_on_error
 from rsoccer.train.args import Args
 from rsoccer.train.clock import Clock
@@ -106,10 +105,9 @@ class Trainer:
         )
         _check_batch(args, len(self.curriculum.learners))
         if args.network.shield is not None:
-            try:
-                AreaShield(self.task.config)
-            except ValueError as error:
-                raise ValueError(f"network.shield: {error}") from error
+            error = shield_error(args.network.shield, self.task)
+            if error is not None:
+                raise ValueError(f"network.shield: {error}")
         self.pool, self.is_solo = self.curriculum.pool, self.curriculum.starts_solo
         create = self.curriculum.solo if self.is_solo else self.curriculum.team
         matches = create(first_seed)
