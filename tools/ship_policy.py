@@ -1,10 +1,12 @@
 """Put a run's policy into the package: `python -m tools.ship_policy out/mine`.
 
-Its weights are rounded to half precision. The policy plays a fixed list of starts, from both sides
-where the task has two, against each opponent. Its scores and how it was made go into the metadata
-of the file, which is copied to `python/rsoccer/policies/trained/<task>.safetensors`. There it is
-the policy `best` of its task. The policy of a run with `sensing`, such as a distillation, becomes
-`<task>.robust.safetensors`, the policy `best:robust`, and plays all starts with these senses, too.
+Its weights are rounded to half precision. Policies of the SSL lose their value network, as a
+lookahead makes them worse (docs/learning-tried.md). The policy plays a fixed list of starts, from
+both sides where the task has two, against each opponent. Its scores and how it was made go into the
+metadata of the file, which is copied to `python/rsoccer/policies/trained/<task>.safetensors`. There
+it is the policy `best` of its task. The policy of a run with `sensing`, such as a distillation,
+becomes `<task>.robust.safetensors`, the policy `best:robust`, and plays all starts with these
+senses, too.
 
 `python -m tools.ship_policy --behind-forecast VSSSelfPlay-v0` makes `best` of a task its
 `best:robust`, too: the same weights, behind a forecast.
@@ -119,6 +121,8 @@ def ship(
     if isinstance(policy, Network) and "layout" not in policy.metadata:
         raise ValueError(f"run: expected a policy with its layout in {run}, got none")
     policy.metadata["training"] = json.dumps(_training(run))
+    if isinstance(policy, Network) and task.config.robot.drive == "omni":
+        policy.set_value(None)
     task = rsoccer.make_task(task.name, **options_of(policy))
     path = trained.FOLDER / trained.file_name(task.name, variant_of(policy))
     candidate = run / path.name

@@ -15,9 +15,9 @@ from rsoccer import LEARN, Matches, Policy, WorldRng, make_task
 from rsoccer._core import Threads
 from rsoccer.arrays import Floats
 from rsoccer.frame import Frame
-from rsoccer.policies import list_policies, make_policy, trained_on
+from rsoccer.policies import list_policies, lookahead, make_policy, trained_on
 from rsoccer.policies.base import MatchState
-from rsoccer.policies.lookahead import CANDIDATES, GROUP, Lookahead
+from rsoccer.policies.lookahead import CANDIDATES, DECISIONS, GROUP, SEQUENCES, Lookahead
 from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import Value
 from rsoccer.task import Learn, Task
@@ -112,6 +112,63 @@ def test_the_joint_action_has_the_greatest_sum_of_rewards_and_value() -> None:
     assert found[0].std() > 0.01
 
 
+@pytest.mark.parametrize("own", [[0, 1, 2], [3, 4, 5]])
+def test_in_danger_a_team_plays_the_first_action_of_the_best_sequence(own: list[int]) -> None:
+    """Against the same sequences, played in matches."""
+    policy, rng = planner(weights=0.3), np.random.default_rng(1)
+    alone = Matches(NAME, seed=3)
+    means = policy.network.mean_actions(alone.reset())
+    rows = alone.frame.rows.copy()
+    match = MatchState(rows, alone.play.game, np.array(own), Threads(), policy.task.config)
+    tried = np.repeat(means[:, None], SEQUENCES, axis=1)
+    noise = np.asarray(rng.normal(size=(1, SEQUENCES, DECISIONS, 3, 2)) * 0.5, np.float32)
+    found = policy._best_first(match, np.array(own), tried.copy(), noise)
+    matches = Matches(NAME, SEQUENCES, autoreset="disabled")
+    matches.reset(rows=np.repeat(rows, SEQUENCES, axis=0))
+    actions, returns, weight = tried[0].copy(), np.zeros(SEQUENCES), np.ones(SEQUENCES)
+    for decision in range(DECISIONS):
+        actions[:, own] = np.clip(actions[:, own] + noise[0, :, decision], -1.0, 1.0)
+        if decision == 0:
+            begun = actions[:, own].copy()
+        for _ in range(3):
+            outcome = matches.step(actions)
+            returns += weight * outcome.rewards[:, own].sum(axis=1) / 2.0
+            weight = np.where(outcome.ended, 0.0, weight)
+        weight = weight * 0.95
+        actions = policy.network.mean_actions(outcome.observations)
+    returns += weight * policy.network.values(outcome.observations)[:, own].sum(axis=1)
+    best = returns.argmax()
+    assert returns.std() > 0.1
+    assert np.sort(returns)[-1] - np.sort(returns)[-2] > 1e-3, "one is the best"
+    np.testing.assert_array_equal(found[0], begun[best])
+
+
+def test_sequences_save_starts_that_one_decision_loses(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A robot of the other team drives the ball at the own goal, and the defenders are near."""
+    rng, worlds = np.random.default_rng(0), 32
+    frame = Frame.empty(worlds, 3, 3)
+    frame.ball.position[:] = rng.uniform((-0.35, -0.3), (-0.1, 0.3), (worlds, 2))
+    frame.robots.heading[:] = 1.0, 0.0
+    frame.yellow.heading[:] = -1.0, 0.0
+    frame.yellow.position[:, 0] = frame.ball.position + np.array([0.1, 0.0], np.float32)
+    frame.yellow.position[:, 1:] = (0.6, 0.3), (0.6, -0.3)
+    frame.blue.position[:, 0] = rng.uniform((-0.7, -0.5), (-0.5, 0.5), (worlds, 2))
+    frame.blue.position[:, 1:] = (0.3, 0.4), (0.3, -0.4)
+    lost = []
+    for danger in (lookahead.DANGER, -np.inf):
+        monkeypatch.setattr(lookahead, "DANGER", danger)
+        controllers = {"blue": "best:lookahead", "yellow": "chase"}
+        matches = Matches(NAME, worlds, controllers=controllers, autoreset="disabled")
+        matches.reset(rows=frame.rows)
+        score = np.zeros(worlds)
+        for _ in range(60):
+            running = ~matches.done
+            outcome = matches.step(np.zeros((worlds, 0, 2), np.float32))
+            score = np.where(running & outcome.ended, outcome.metrics["goal_score"], score)
+        lost.append(int((score < 0.0).sum()))
+    assert lost[0] < lost[1] - 1
+
+
 def test_networks_see_their_last_actions(monkeypatch: pytest.MonkeyPatch) -> None:
     """The plan begins with the observation that the network alone would have."""
     policy, seen = planner(weights=0.2), list[Floats]()
@@ -120,7 +177,8 @@ def test_networks_see_their_last_actions(monkeypatch: pytest.MonkeyPatch) -> Non
     choose = policy.network.mean_actions
 
     def noting(observations: Floats) -> Floats:
-        seen.append(observations.copy())
+        if len(observations) == matches.worlds:  # not those of what is tried
+            seen.append(observations.copy())
         return choose(observations)
 
     monkeypatch.setattr(policy.network, "mean_actions", noting)

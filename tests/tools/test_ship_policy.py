@@ -14,6 +14,7 @@ from rsoccer.commands import train as train_command
 from rsoccer.policies import make_policy, trained
 from rsoccer.policies.lookahead import Lookahead
 from rsoccer.policies.network import Network
+from rsoccer.policies.policy_file import Value
 from rsoccer.train import Args, NetworkSettings, PpoSettings, train
 from tests.policies.networks import network_for
 from tests.train.one_update import one_update
@@ -84,12 +85,16 @@ def test_other_policies_are_refused(
         ship(tmp_path)
     (tmp_path / "args.json").write_text('{"task": "SSLGoToBall-v0", "samples": 5, "seed": 2}')
     (tmp_path / "progress.csv").write_text("update,samples\n1,5\n")
+    network.set_value(Value([(network.layers[0][0][:1], np.zeros(1, np.float32))], 0.9, 1, 1.0))
+    network.save(tmp_path / "policy.safetensors")
     monkeypatch.setattr("tools.ship_policy.MAX_SIZE", 100)
     with pytest.raises(ValueError, match="run: expected a policy of at most 100 bytes"):
         ship(tmp_path, starts=10, threads=1)
     assert list(folder.iterdir()) == []
     monkeypatch.setattr("tools.ship_policy.MAX_SIZE", MAX_SIZE)
-    (score,) = trained.list_scores(ship(tmp_path, starts=10, threads=1))
+    path = ship(tmp_path, starts=10, threads=1)
+    assert Network.load(path).value is None, "a lookahead is for VSSS"
+    (score,) = trained.list_scores(path)
     assert (score.opponent, score.metric, score.matches) == ("-", "reached", 10)
 
 

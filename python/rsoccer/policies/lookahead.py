@@ -7,6 +7,12 @@ network says what the state that follows is worth. The team plays the joint acti
 sum of rewards and value over its robots. This is a one-step lookahead with a learned value, a kind
 of decision-time planning (Sutton and Barto, "Reinforcement Learning: An Introduction", 2018,
 chapter 8).
+
+Where even that joint action is worth little, a goal against the team is near, and one decision
+saves nothing. There the team tries whole sequences of decisions: its policy plays, with noise of
+each sequence's own, and the means of the policy play for all others. The first joint action of the
+sequence with the greatest return is played (random shooting: Nagabandi and others, "Neural Network
+Dynamics for Model-Based Deep Reinforcement Learning with Model-Free Fine-Tuning", 2018).
 """
 
 from __future__ import annotations
@@ -43,6 +49,17 @@ SPREAD: Final = 0.3
 """Standard deviation of the wider half of them."""
 GROUP: Final = 16
 """Worlds that plan at once, a power of two, so that their copies stay in the cache."""
+DANGER: Final = 0.7
+"""Return of each robot of a team below which the team tries sequences, in the rewards' standard
+deviation."""
+SEQUENCES: Final = 64
+"""Sequences of decisions that a team tries in danger, with the one of the policy's means."""
+DECISIONS: Final = 8
+"""Decisions of a sequence: .6 s, in which a ball crosses half of a VSSS field."""
+SEQUENCE_SPREADS: Final = (0.3, 0.8)
+"""Standard deviations of the noise of both halves of the sequences."""
+SEQUENCE_GROUP: Final = 4
+"""Worlds that try sequences at once, a power of two."""
 BODIES: Final = ("field", "robot", "ball", "n_blue", "n_yellow", "n_opponents", "engine")
 """Options of a task that decide what moves, and are those of the match in the model."""
 _LAST: Final = "last"
@@ -121,8 +138,7 @@ class Lookahead(Policy):
         worlds = acting.nonzero()[0]
         for first in range(0, len(worlds), GROUP):
             group = worlds[first : first + GROUP]
-            size = 1 << (len(group) - 1).bit_length()  # few sizes need few models
-            padded = np.pad(group, (0, size - len(group)), mode="edge")
+            padded = _padded(group)
             streams = rng[padded]
             planned = self._planned(match.take(padded), last[padded], streams)
             last[group] = planned[: len(group)]
@@ -151,9 +167,66 @@ class Lookahead(Policy):
             own = robots[(robots >= self.task.n_blue) == team]
             if len(own):
                 tried = self._tried(means, own, rng)
-                best = self._returns(match, own, tried).argmax(axis=1)
+                returns = self._returns(match, own, tried)
+                best = returns.argmax(axis=1)
                 planned[:, own] = tried[np.arange(n), best][:, own]
+                in_danger = returns.max(axis=1) < DANGER * len(own)
+                self._escape(in_danger.nonzero()[0], match, own, means, planned, rng)
         return planned
+
+    def _escape(
+        self,
+        worlds: Indices,
+        match: MatchState,
+        own: Indices,
+        means: Floats,
+        planned: Floats,
+        rng: WorldRng,
+    ) -> None:
+        """Write the first actions of the best sequences of a team in some worlds into a plan."""
+        for first in range(0, len(worlds), SEQUENCE_GROUP):
+            group = worlds[first : first + SEQUENCE_GROUP]
+            padded = _padded(group)
+            streams = rng[padded]
+            tried = np.repeat(means[padded, None], SEQUENCES, axis=1)
+            tried[:, 1, own] = planned[padded][:, own]
+            noise = _sequence_noise(streams, (len(own), self.network.action_size))
+            actions = self._best_first(match.take(padded), own, tried, noise)
+            planned[group[:, None], own] = actions[: len(group)]
+            rng.put(group, streams[np.arange(len(group))])
+
+    def _best_first(self, match: MatchState, own: Indices, tried: Floats, noise: Floats) -> Floats:
+        """First actions (n, own robots, action) of the sequence with the greatest return.
+
+        Args:
+            match: the match as the robots know it.
+            own: indices of the team's robots.
+            tried: (n, sequences, robots, action) first actions of all robots, without noise.
+            noise: (n, sequences, decisions, own robots, action) what is added to actions.
+        """
+        value, n = self.network.value, len(tried)
+        assert value is not None, "checked by the constructor"
+        players = self._players
+        model = self._model(players, n * SEQUENCES, match.threads)
+        copies, rewarded = np.repeat(np.arange(n), SEQUENCES), np.searchsorted(players, own)
+        model.place(match.rows[copies], match.game.take(copies))
+        actions = tried.reshape(model.worlds, *self._shape)
+        noise = noise.reshape(model.worlds, *noise.shape[2:])
+        returns, weight = np.zeros(model.worlds, np.float32), np.ones(model.worlds, np.float32)
+        actions[:, own] = np.clip(actions[:, own] + noise[:, 0], -1.0, 1.0)
+        begun = actions[:, own].reshape(n, SEQUENCES, len(own), -1)
+        for later in range(1, DECISIONS + 1):
+            rewards, ended, observations = model.advance(actions, value.action_repeat)
+            returns += weight * rewards[:, rewarded].sum(axis=1) / np.float32(value.reward_std)
+            weight *= np.where(ended, np.float32(0.0), np.float32(value.discount))
+            if later < DECISIONS:
+                actions = np.zeros_like(actions)
+                actions[:, players] = self.network.mean_actions(observations)
+                actions[:, own] = np.clip(actions[:, own] + noise[:, later], -1.0, 1.0)
+        returns += weight * self.network.values(observations[:, rewarded]).sum(axis=1)
+        best = returns.reshape(n, SEQUENCES).argmax(axis=1)
+        chosen: Floats = begun[np.arange(n), best]
+        return chosen
 
     def _tried(self, means: Floats, robots: Indices, rng: WorldRng) -> Floats:
         """Actions of all robots (n, candidates, robots, action), first the means."""
@@ -206,6 +279,22 @@ class Lookahead(Policy):
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Begin without models."""
         self.__dict__.update(state, _models=threading.local())
+
+
+def _padded(worlds: Indices) -> Indices:
+    """Worlds with copies of the last one up to a power of two: few sizes need few models."""
+    size = 1 << (len(worlds) - 1).bit_length()
+    return np.pad(worlds, (0, size - len(worlds)), mode="edge")
+
+
+def _sequence_noise(rng: WorldRng, shape: tuple[int, int]) -> Floats:
+    """Noise (n, sequences, decisions, *shape): none in the first two, constant in every other."""
+    spread = np.full((SEQUENCES, 1, 1, 1), SEQUENCE_SPREADS[1], np.float32)
+    spread[: SEQUENCES // 2] = SEQUENCE_SPREADS[0]
+    noise: Floats = rng.normal((SEQUENCES, DECISIONS, *shape)) * spread
+    noise[:, 1::2] = noise[:, 1::2, :1]
+    noise[:, :2] = 0.0
+    return noise
 
 
 def _check(network: Network) -> None:

@@ -84,7 +84,7 @@ def shield_error(name: str, task: Task) -> str | None:
     if name == "ssl_attack" and not getattr(task, "half_only", False):
         return f"expected an attack challenge of the SSL, got {task.name}"
     if getattr(task, "velocity_frame", "field") != "field":
-        return f"expected velocities in the axes of the field, got those of the robot in {task.name}"
+        return f"expected velocities in the field's axes, got the robot's in {task.name}"
     try:
         _CORES[name](task.config)
     except ValueError as error:
