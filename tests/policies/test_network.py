@@ -1,13 +1,15 @@
 import pickle
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pytest
 import torch
 from torch import nn
 
+from rsoccer.arrays import Floats
 from rsoccer.policies.base import PolicyInput
-from rsoccer.policies.network import Network
+from rsoccer.policies.network import SINGLE_THREAD_SIZE, Network
 from rsoccer.registry import make_task
 from rsoccer.rng import WorldRng
 from tests.policies.networks import (
@@ -61,6 +63,30 @@ def test_batches_agree_with_single_worlds() -> None:
     network, observations = Network(*network_parts()), random_observations(n=33)
     single = np.concatenate([network.mean_actions(world[None]) for world in observations])
     np.testing.assert_allclose(network.mean_actions(observations), single, atol=1e-5)
+
+
+@pytest.mark.parametrize("hidden", [8, 224, 1024])
+def test_no_product_is_large_enough_for_further_threads(
+    hidden: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """They spin: on a busy machine matches of a wide network took minutes in place of seconds."""
+    task = make_task("VSS-v0")
+    sizes = (task.layout.size, hidden, hidden, task.action_size)
+    shapes = zip(sizes[1:], sizes[:-1], strict=True)
+    layers = [(np.zeros(shape, np.float32), np.ones(shape[0], np.float32)) for shape in shapes]
+    network, rows = Network.from_layers(task, layers), list[int]()
+    forward = network._forward
+
+    def noting(layers: Any, observations: Floats) -> Floats:  # noqa: ANN401
+        rows.append(len(observations))
+        return forward(layers, observations)
+
+    monkeypatch.setattr(network, "_forward", noting)
+    actions = network.mean_actions(np.zeros((50, 3, task.layout.size), np.float32))
+    assert (actions == 1.0).all()
+    assert sum(rows) == 150
+    widest = max(weight.size for weight, _ in layers)
+    assert max(rows) == 1 or max(rows) * widest <= SINGLE_THREAD_SIZE
 
 
 def test_a_decision_is_held_for_the_repeat() -> None:

@@ -309,7 +309,7 @@ class Network(HeldActions):
         flat, size = observations.reshape(-1, observations.shape[-1]), len(layers[-1][1])
         outputs = np.empty((len(flat), size), np.float32)
         # More rows would use further threads, which spin on other cores.
-        rows = max(16, SINGLE_THREAD_SIZE // max(weight.size for weight, _ in layers))
+        rows = max(1, SINGLE_THREAD_SIZE // max(weight.size for weight, _ in layers))
         for first in range(0, len(flat), rows):
             outputs[first : first + rows] = self._forward(layers, flat[first : first + rows])
         return outputs.reshape(*observations.shape[:-1], size)
