@@ -1218,7 +1218,7 @@ class AttackShield:
         config: Field and robots.
 
     Raises:
-        ValueError: Robots without an omnidirectional drive.
+        ValueError: Robots without an omnidirectional drive, or more than a referee can see.
     """
 
     def __new__(cls, config: SimConfig) -> AttackShield: ...

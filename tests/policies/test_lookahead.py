@@ -13,7 +13,7 @@ import pytest
 import rsoccer
 from rsoccer import LEARN, Matches, Policy, WorldRng, make_task
 from rsoccer._core import Threads
-from rsoccer.arrays import Floats
+from rsoccer.arrays import Floats, Mask
 from rsoccer.frame import Frame
 from rsoccer.policies import list_policies, lookahead, make_policy, trained_on
 from rsoccer.policies.base import MatchState
@@ -143,6 +143,44 @@ def test_in_danger_a_team_plays_the_first_action_of_the_best_sequence(own: list[
     np.testing.assert_array_equal(found[0], begun[best])
 
 
+def test_worlds_in_danger_alone_try_sequences(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each as if it were alone; the others play the best joint action."""
+    worlds = GROUP + 5
+
+    def first_actions(danger: float, seeds: range) -> Floats:
+        monkeypatch.setattr(lookahead, "DANGER", danger)
+        policy = planner(weights=0.1)
+        policy.network.mode = "mean"
+        matches = Matches(NAME, len(seeds), seeds[0], controllers={"blue": policy})
+        matches.reset()
+        matches.step(np.zeros((len(seeds), 3, 2), np.float32))
+        return matches.play.actions[:, :3].copy()
+
+    def in_danger(danger: float) -> Mask:
+        changed = first_actions(danger, range(worlds)) != first_actions(-np.inf, range(worlds))
+        mask: Mask = changed.any(axis=(1, 2))
+        return mask
+
+    danger = next(d for d in np.linspace(-4.0, 4.0, 33) if in_danger(d).sum() >= worlds // 3)
+    found = in_danger(danger)
+    assert 2 < found.sum() < worlds - 2, "some are, some are not"
+    many = first_actions(danger, range(worlds))
+    for world in (int(found.argmax()), int((~found).argmax())):
+        alone = first_actions(danger, range(world, world + 1))
+        np.testing.assert_allclose(many[world], alone[0], atol=1e-4)
+
+
+def test_noise_of_sequences() -> None:
+    noise = lookahead._sequence_noise(WorldRng.seeded(0, 3), (2, 2))
+    assert noise.shape == (3, SEQUENCES, DECISIONS, 2, 2)
+    assert not noise[:, :2].any(), "the means, and the best joint action"
+    assert (noise[:, 3::2] == noise[:, 3::2, :1]).all(), "constant"
+    assert (noise[:, 2::2, 1:] != noise[:, 2::2, :1]).all()
+    halves = noise[:, 2 : SEQUENCES // 2], noise[:, SEQUENCES // 2 :]
+    for half, spread in zip(halves, lookahead.SEQUENCE_SPREADS, strict=True):
+        assert abs(half.std() / spread - 1.0) < 0.1
+
+
 def test_sequences_save_starts_that_one_decision_loses(monkeypatch: pytest.MonkeyPatch) -> None:
     """A robot of the other team drives the ball at the own goal, and the defenders are near."""
     rng, worlds = np.random.default_rng(0), 32
@@ -211,9 +249,9 @@ def test_ended_matches_are_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
     policy = planner()
     plan, planned = policy._planned, list[int]()
 
-    def counting(match: MatchState, last: Floats, rng: WorldRng) -> Floats:
+    def counting(match: MatchState, last: Floats, rng: WorldRng, count: int) -> Floats:
         planned.append(len(match.rows))
-        return plan(match, last, rng)
+        return plan(match, last, rng, count)
 
     monkeypatch.setattr(policy, "_planned", counting)
     matches = Matches(NAME, 4, controllers={"blue": policy}, autoreset="disabled", max_steps=2)
@@ -233,9 +271,9 @@ def test_robots_that_the_shield_has_stand_do_not_plan(monkeypatch: pytest.Monkey
     policy = planner(task, shield="vsss")
     plan, planned = policy._planned, list[int]()
 
-    def counting(match: MatchState, last: Floats, rng: WorldRng) -> Floats:
+    def counting(match: MatchState, last: Floats, rng: WorldRng, count: int) -> Floats:
         planned.append(len(match.rows))
-        return plan(match, last, rng)
+        return plan(match, last, rng, count)
 
     monkeypatch.setattr(policy, "_planned", counting)
     matches = Matches(task, 2, controllers={"all": policy}, autoreset="disabled")
@@ -287,9 +325,9 @@ def test_it_plays_from_what_its_robots_know(monkeypatch: pytest.MonkeyPatch) -> 
     policy = planner()
     plan, rows = policy._planned, list[Floats]()
 
-    def noting(match: MatchState, last: Floats, rng: WorldRng) -> Floats:
+    def noting(match: MatchState, last: Floats, rng: WorldRng, count: int) -> Floats:
         rows.append(match.rows.copy())
-        return plan(match, last, rng)
+        return plan(match, last, rng, count)
 
     monkeypatch.setattr(policy, "_planned", noting)
     matches = Matches(NAME, 2, controllers={"blue": policy}, sensing="rc2021")

@@ -65,7 +65,7 @@ def test_batches_agree_with_single_worlds() -> None:
     np.testing.assert_allclose(network.mean_actions(observations), single, atol=1e-5)
 
 
-@pytest.mark.parametrize("hidden", [8, 224, 1024])
+@pytest.mark.parametrize("hidden", [8, 224, 500])
 def test_no_product_is_large_enough_for_further_threads(
     hidden: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -86,7 +86,7 @@ def test_no_product_is_large_enough_for_further_threads(
     assert (actions == 1.0).all()
     assert sum(rows) == 150
     widest = max(weight.size for weight, _ in layers)
-    assert max(rows) == 1 or max(rows) * widest <= SINGLE_THREAD_SIZE
+    assert max(rows) * widest <= SINGLE_THREAD_SIZE
 
 
 def test_a_decision_is_held_for_the_repeat() -> None:

@@ -246,6 +246,17 @@ mod tests {
     }
 
     #[test]
+    fn a_robot_that_is_too_fast_brakes_before_it_turns_aside() {
+        let (shield, mut row) = scene();
+        // 0.2 m before the opponent at 1.3 m/s, where it may have 1.07 m/s.
+        put(&mut row, 0, [1.2, 0.6], [0.0, 1.3]);
+        let [x, ..] = applied(&shield, &row, 0, [1.0, 1.0]);
+        assert!(0.0 < x && x * 3.7 < 0.3, "{x}: as much as it is too fast");
+        put(&mut row, 0, [1.2, 0.6], [0.0, 0.8]);
+        assert_eq!(applied(&shield, &row, 0, [1.0, 1.0])[0], 1.0, "a slower one turns");
+    }
+
+    #[test]
     fn robots_that_are_absent_stop_no_one() {
         let (shield, mut row) = scene();
         put(&mut row, 0, [1.2, 0.7], [0.0, 0.0]);

@@ -14,8 +14,8 @@ const VALUE: &str = "value.";
 const MAX_ACTION_REPEAT: u32 = 1_000_000;
 /// Most observations in a stacked one.
 const MAX_HISTORY: u32 = 1000;
-/// Name of the shield that a policy may have.
-const SHIELD: &str = "vsss";
+/// Names of the shields that a policy may have, of which the first alone acts in whole matches.
+const SHIELDS: [&str; 2] = ["vsss", "ssl_attack"];
 /// Products that are summed side by side.
 const LANES: usize = 8;
 
@@ -93,9 +93,10 @@ impl Network {
         let layout = metadata.get("layout").cloned();
         let is_shielded = match metadata.get("shield").map(String::as_str) {
             None => false,
-            Some(SHIELD) => true,
+            Some(name) if SHIELDS.contains(&name) => name == SHIELDS[0],
             Some(got) => {
-                return Err(wrong(&format!("metadata 'shield' should be {SHIELD:?}, got {got:?}")));
+                let names = SHIELDS.join(" or ");
+                return Err(wrong(&format!("metadata 'shield' should be {names}, got {got:?}")));
             }
         };
         let needs_forecast = needs_forecast(metadata.get("sensing"))?;

@@ -26,7 +26,7 @@ class HeldActions(Policy):
     stack: ObservationStack | None = None
     """Stacks the observations that the policy decides from; None if it decides from plain ones."""
     shield: Shield | None = None
-    """Changes actions against rules of the referee; None for a policy without one."""
+    """Changes actions against rules; None for a policy without one."""
 
     def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> Memory:
         """Return the held action (n, robots, action), control steps played (n,), and the past."""

@@ -55,7 +55,7 @@ deviation."""
 SEQUENCES: Final = 64
 """Sequences of decisions that a team tries in danger, with the one of the policy's means."""
 DECISIONS: Final = 8
-"""Decisions of a sequence: .6 s, in which a ball crosses half of a VSSS field."""
+"""Decisions of a sequence: .6 s with those of 75 ms, in which a ball crosses half a VSSS field."""
 SEQUENCE_SPREADS: Final = (0.3, 0.8)
 """Standard deviations of the noise of both halves of the sequences."""
 SEQUENCE_GROUP: Final = 4
@@ -75,7 +75,8 @@ class Lookahead(Policy):
     shield changes what was chosen, not what is tried.
 
     Matrix products are not bit-equal between batch sizes, so two actions that are worth almost the
-    same may be chosen in another order there, as rarely as two numbers agree to 1e-6.
+    same may be chosen in another order there, and sequences may be tried or not where a return is
+    almost `DANGER`, as rarely as two numbers agree to 1e-6.
 
     Example:
         >>> import rsoccer
@@ -140,7 +141,7 @@ class Lookahead(Policy):
             group = worlds[first : first + GROUP]
             padded = _padded(group)
             streams = rng[padded]
-            planned = self._planned(match.take(padded), last[padded], streams)
+            planned = self._planned(match.take(padded), last[padded], streams, len(group))
             last[group] = planned[: len(group)]
             rng.put(group, streams[np.arange(len(group))])
         actions = last[:, match.robots]
@@ -152,12 +153,16 @@ class Lookahead(Policy):
     def _acting(self, match: MatchState) -> Mask:
         """Worlds (n,) in which a robot may do anything: the shield has all stand in a stop."""
         acting = np.ones(len(match.rows), np.bool_) if match.playing is None else match.playing
-        if self.network.shield is None or "referee" not in match.game:
+        shield = self.network.shield
+        if shield is None or shield.name != "vsss" or "referee" not in match.game:
             return acting
         return np.logical_and(acting, match.game.may_touch[:, match.robots].any(axis=1))
 
-    def _planned(self, match: MatchState, last: Floats, rng: WorldRng) -> Floats:
-        """Actions of all robots, (n, robots, action): the best ones, and means of others."""
+    def _planned(self, match: MatchState, last: Floats, rng: WorldRng, count: int) -> Floats:
+        """Actions of all robots, (n, robots, action): the best ones, and means of others.
+
+        Only the first `count` worlds try sequences; the others are copies.
+        """
         n, robots = len(match.rows), match.robots
         model = self._model(self._players, n, match.threads)
         means = np.zeros((n, *self._shape), np.float32)
@@ -171,7 +176,7 @@ class Lookahead(Policy):
                 best = returns.argmax(axis=1)
                 planned[:, own] = tried[np.arange(n), best][:, own]
                 in_danger = returns.max(axis=1) < DANGER * len(own)
-                self._escape(in_danger.nonzero()[0], match, own, means, planned, rng)
+                self._escape(in_danger[:count].nonzero()[0], match, own, means, planned, rng)
         return planned
 
     def _escape(

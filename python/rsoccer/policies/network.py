@@ -19,6 +19,7 @@ from rsoccer.policies.fits import check_fits
 from rsoccer.policies.heads import CHOOSING, Deviation
 from rsoccer.policies.held_actions import HeldActions
 from rsoccer.policies.layers import read_layers
+from rsoccer.policies.shield import shield_error
 from rsoccer.registry import as_task, options_of
 
 if TYPE_CHECKING:
@@ -189,6 +190,8 @@ class Network(HeldActions):
             encoded = {name: option_values.encoded(name, v) for name, v in task_options.items()}
             metadata["task_options"] = json.dumps(encoded, sort_keys=True)
         metadata |= training_conditions.written(sensing, randomization)
+        if shield is not None and (error := shield_error(shield, task)) is not None:
+            raise ValueError(f"shield: {error}")
         metadata |= {} if shield is None else {"shield": shield}
         metadata |= {} if value is None else {policy_file.VALUE: value.text}
         arrays |= {} if value is None else value.arrays()
@@ -308,8 +311,9 @@ class Network(HeldActions):
             )
         flat, size = observations.reshape(-1, observations.shape[-1]), len(layers[-1][1])
         outputs = np.empty((len(flat), size), np.float32)
-        # More rows would use further threads, which spin on other cores.
-        rows = max(1, SINGLE_THREAD_SIZE // max(weight.size for weight, _ in layers))
+        # More rows would use further threads, which spin on other cores. Layers that are larger by
+        # themselves use them anyway.
+        rows = SINGLE_THREAD_SIZE // max(weight.size for weight, _ in layers) or max(1, len(flat))
         for first in range(0, len(flat), rows):
             outputs[first : first + rows] = self._forward(layers, flat[first : first + rows])
         return outputs.reshape(*observations.shape[:-1], size)

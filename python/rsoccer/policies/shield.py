@@ -7,7 +7,8 @@ actions alone but for those:
   (`rsoccer._core.AreaShield`), and has them stand while they may not touch the ball. It acts in
   matches under a referee alone.
 - "ssl_attack" brakes the robot of the SSL attack challenges before opponents, the goal area and the
-  limits of the half (`rsoccer._core.AttackShield`).
+  limits of the half (`rsoccer._core.AttackShield`). It acts where no referee judges, on velocities
+  in the axes of the field. Where the robot takes the ball from an opponent it is in the way.
 """
 
 from __future__ import annotations
@@ -34,7 +35,13 @@ _CORES: Final[dict[str, type[AreaShield | AttackShield]]] = {
 
 
 class Shield:
-    """A shield by name, for the robots of any match of its league."""
+    """A shield by name, for the robots of any match of its league.
+
+    `shield_error` says whether a task has its rules.
+
+    Attributes:
+        name: one of `SHIELDS`.
+    """
 
     def __init__(self, name: str) -> None:
         """Choose the shield.
@@ -60,31 +67,32 @@ class Shield:
         Raises:
             ValueError: robots with another drive than those of its league.
         """
-        is_refereed = "referee" in match.game
-        if is_refereed != (self.name == "vsss"):
+        if ("referee" in match.game) != (self.name == "vsss"):
             return
         built = self._built
         if built is None or built[0] is not match.config:
             built = self._built = match.config, _CORES[self.name](match.config)
         changed = np.ascontiguousarray(actions, np.float32)
         built[1].apply(match.rows, match.robots.tolist(), changed, match.threads)
-        if is_refereed:
+        if self.name == "vsss":
             changed[~match.game.may_touch[:, match.robots]] = 0.0
         if changed is not actions:
             actions[...] = changed
 
 
 def shield_error(name: str, task: Task) -> str | None:
-    """Return why a task has no use for a shield; None if it may act there.
+    """Return why policies of a task cannot have a shield; None if they can.
 
     Args:
-        name: one of `SHIELDS`.
+        name: name of the shield.
         task: the task to play.
     """
+    if name not in SHIELDS:
+        return f"expected one of {SHIELDS}, got {name!r}"
     if name == "ssl_attack" and not getattr(task, "half_only", False):
         return f"expected an attack challenge of the SSL, got {task.name}"
     if getattr(task, "velocity_frame", "field") != "field":
-        return f"expected velocities in the field's axes, got the robot's in {task.name}"
+        return f"expected a task with velocity_frame 'field', got 'robot' in {task.name}"
     try:
         _CORES[name](task.config)
     except ValueError as error:

@@ -12,6 +12,7 @@ from torch import nn
 from rsoccer.arrays import Floats, Mask
 from rsoccer.matches import Matches
 from rsoccer.policies.network import Network
+from rsoccer.train.rollout.transition import shielded
 
 
 class Samples(NamedTuple):
@@ -83,11 +84,11 @@ class HindsightMatches:
         return Samples(*(np.concatenate(parts) for parts in zip(*found, strict=True)))
 
     def _play(self, actions: Floats) -> list[Samples]:
-        """Hold actions as the teacher does, and label decisions that arrive meanwhile."""
+        """Hold actions as the teacher does, behind its shield; label decisions that arrive."""
         found = self._label()
         ended = np.zeros(self._matches.worlds, np.bool_)
         for step in range(self._teacher.action_repeat):
-            outcome = self._matches.step(actions)
+            outcome = self._matches.step(shielded(self._matches, actions, self._teacher.shield))
             self._step += 1
             ended |= outcome.ended
             for decision in self._open:

@@ -65,7 +65,7 @@ class RolloutCollector:
             central: inputs of a centralized critic; None if the critic reads the observations.
             reflection: reflection of an observation that the statistics do not change under; None
                 for none.
-            shield: changes actions against rules of the referee; None for none.
+            shield: changes actions against rules; None for none.
         """
         self._settings, self._generator, self._shield = settings, generator, shield
         self._evaluator, self._model = evaluator, evaluator.model
