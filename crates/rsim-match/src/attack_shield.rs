@@ -250,10 +250,10 @@ mod tests {
         let (shield, mut row) = scene();
         // 0.2 m before the opponent at 1.3 m/s, where it may have 1.07 m/s.
         put(&mut row, 0, [1.2, 0.6], [0.0, 1.3]);
-        let [x, ..] = applied(&shield, &row, 0, [1.0, 1.0]);
+        let [x, ..] = applied(&shield, &row, 0, [0.5, 1.0]);
         assert!(0.0 < x && x * 3.7 < 0.3, "{x}: as much as it is too fast");
         put(&mut row, 0, [1.2, 0.6], [0.0, 0.8]);
-        assert_eq!(applied(&shield, &row, 0, [1.0, 1.0])[0], 1.0, "a slower one turns");
+        assert_eq!(applied(&shield, &row, 0, [0.5, 1.0])[0], 0.5, "a slower one turns");
     }
 
     #[test]
