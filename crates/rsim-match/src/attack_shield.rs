@@ -40,7 +40,7 @@ pub struct AttackShield {
     robots: Vec<Body>,
 }
 
-/// What the shield has to know of a robot.
+/// Size, speed and deceleration of a robot.
 #[derive(Debug, Clone, Copy)]
 struct Body {
     radius: f32,
