@@ -31,7 +31,7 @@ from rsoccer.registry import as_task, make_task, task_with_options
 from rsoccer.view import SIDES
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from numpy.typing import NDArray
 
@@ -137,13 +137,9 @@ class Lookahead(Policy):
         last, acting = memory[_LAST], self._acting(match)
         last[~acting] = 0.0
         worlds = acting.nonzero()[0]
-        for first in range(0, len(worlds), GROUP):
-            group = worlds[first : first + GROUP]
-            padded = _padded(group)
-            streams = rng[padded]
+        for group, padded, streams in _groups(worlds, GROUP, rng):
             planned = self._planned(match.take(padded), last[padded], streams, len(group))
             last[group] = planned[: len(group)]
-            rng.put(group, streams[np.arange(len(group))])
         actions = last[:, match.robots]
         if self.network.shield is not None:
             self.network.shield.apply(match, actions)
@@ -189,16 +185,12 @@ class Lookahead(Policy):
         rng: WorldRng,
     ) -> None:
         """Write the first actions of the best sequences of a team in some worlds into a plan."""
-        for first in range(0, len(worlds), SEQUENCE_GROUP):
-            group = worlds[first : first + SEQUENCE_GROUP]
-            padded = _padded(group)
-            streams = rng[padded]
+        for group, padded, streams in _groups(worlds, SEQUENCE_GROUP, rng):
             tried = np.repeat(means[padded, None], SEQUENCES, axis=1)
             tried[:, 1, own] = planned[padded][:, own]
             noise = _sequence_noise(streams, (len(own), self.network.action_size))
             actions = self._best_first(match.take(padded), own, tried, noise)
             planned[group[:, None], own] = actions[: len(group)]
-            rng.put(group, streams[np.arange(len(group))])
 
     def _best_first(self, match: MatchState, own: Indices, tried: Floats, noise: Floats) -> Floats:
         """First actions (n, own robots, action) of the sequence with the greatest return.
@@ -286,10 +278,21 @@ class Lookahead(Policy):
         self.__dict__.update(state, _models=threading.local())
 
 
-def _padded(worlds: Indices) -> Indices:
-    """Worlds with copies of the last one up to a power of two: few sizes need few models."""
-    size = 1 << (len(worlds) - 1).bit_length()
-    return np.pad(worlds, (0, size - len(worlds)), mode="edge")
+def _groups(
+    worlds: Indices, most: int, rng: WorldRng
+) -> Iterator[tuple[Indices, Indices, WorldRng]]:
+    """Groups of worlds, the same with copies of the last one, and the streams of the latter.
+
+    Copies are added up to a power of two, as few sizes need few models. What a group has drawn from
+    its streams, but for those of copies, is drawn from `rng` too.
+    """
+    for first in range(0, len(worlds), most):
+        group = worlds[first : first + most]
+        size = 1 << (len(group) - 1).bit_length()
+        padded = np.pad(group, (0, size - len(group)), mode="edge")
+        streams = rng[padded]
+        yield group, padded, streams
+        rng.put(group, streams[np.arange(len(group))])
 
 
 def _sequence_noise(rng: WorldRng, shape: tuple[int, int]) -> Floats:

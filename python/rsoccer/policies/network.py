@@ -19,7 +19,7 @@ from rsoccer.policies.fits import check_fits
 from rsoccer.policies.heads import CHOOSING, Deviation
 from rsoccer.policies.held_actions import HeldActions
 from rsoccer.policies.layers import read_layers
-from rsoccer.policies.shield import shield_error
+from rsoccer.policies.shield import check_shield
 from rsoccer.registry import as_task, options_of
 
 if TYPE_CHECKING:
@@ -190,8 +190,7 @@ class Network(HeldActions):
             encoded = {name: option_values.encoded(name, v) for name, v in task_options.items()}
             metadata["task_options"] = json.dumps(encoded, sort_keys=True)
         metadata |= training_conditions.written(sensing, randomization)
-        if shield is not None and (error := shield_error(shield, task)) is not None:
-            raise ValueError(f"shield: {error}")
+        check_shield("shield", shield, task)
         metadata |= {} if shield is None else {"shield": shield}
         metadata |= {} if value is None else {policy_file.VALUE: value.text}
         arrays |= {} if value is None else value.arrays()

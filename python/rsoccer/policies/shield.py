@@ -98,3 +98,19 @@ def shield_error(name: str, task: Task) -> str | None:
     except ValueError as error:
         return str(error)
     return None
+
+
+def check_shield(argument: str, name: str | None, task: Task) -> None:
+    """Check that policies of a task can have a shield.
+
+    Args:
+        argument: name of the argument, for the error message.
+        name: name of the shield; None for none, which passes.
+        task: the task to play.
+
+    Raises:
+        ValueError: see `shield_error`.
+    """
+    error = None if name is None else shield_error(name, task)
+    if error is not None:
+        raise ValueError(f"{argument}: {error}")

@@ -26,7 +26,7 @@ from rsoccer.arrays import Array, Floats
 from rsoccer.envs.robot_rows import RobotRows
 from rsoccer.frame import team_of
 from rsoccer.matches import Matches, Outcome
-from rsoccer.policies.shield import Shield, shield_error
+from rsoccer.policies.shield import Shield, check_shield
 from rsoccer.rllib.decisions import FixedTeams, play_decision
 from rsoccer.rllib.env import METRICS, RESULTS, WIN_RATES, new_matches, spaces_by_agent
 from rsoccer.rllib.episodes import Rollout, Running
@@ -116,8 +116,7 @@ class MatchesEnvRunner(MultiAgentEnvRunner):
         self.matches = new_matches(settings, self.num_envs, self._first_seed(), "disabled")
         if self._shield is not None and self.matches.task.action_table is not None:
             raise ValueError(f"shield: expected a task with continuous actions, got {shield!r}")
-        if shield is not None and (error := shield_error(shield, self.matches.task)) is not None:
-            raise ValueError(f"shield: {error}")
+        check_shield("shield", shield, self.matches.task)
         streams = secrets.randbits(63) if (seed := self._first_seed()) is None else seed
         self._fixed = FixedTeams(self.matches, fixed, streams)
         self._robots = RobotRows.of(self.matches)

@@ -18,7 +18,7 @@ from rsoccer.policies import training_conditions
 from rsoccer.policies.layers import read_layers
 from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import Value
-from rsoccer.policies.shield import Shield, shield_error
+from rsoccer.policies.shield import Shield, check_shield
 from rsoccer.sources import closed_on_error
 from rsoccer.train.args import Args
 from rsoccer.train.clock import Clock
@@ -104,10 +104,7 @@ class Trainer:
             history=args.history,
         )
         _check_batch(args, len(self.curriculum.learners))
-        if args.network.shield is not None:
-            error = shield_error(args.network.shield, self.task)
-            if error is not None:
-                raise ValueError(f"network.shield: {error}")
+        check_shield("network.shield", args.network.shield, self.task)
         self.pool, self.is_solo = self.curriculum.pool, self.curriculum.starts_solo
         create = self.curriculum.solo if self.is_solo else self.curriculum.team
         matches = create(first_seed)
