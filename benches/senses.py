@@ -59,20 +59,24 @@ class Cost:
     everything: float
 
 
-def measure(case: Case, worlds: int, rounds: int, steps: int) -> Cost:
+def measure(case: Case, worlds: int, seeds: int, rounds: int, steps: int) -> Cost:
     """Measure the cost of senses in a task.
 
     Args:
         case: the task.
         worlds: number of matches at once.
-        rounds: number of turns of each variant.
+        seeds: number of seeds: robots that obey differently collide at other times, and some
+            matches cost more than others.
+        rounds: number of turns of each variant with a seed.
         steps: control steps in a turn.
     """
     variants = (None, Sensing(case.preset), Sensing(case.preset, **EVERYTHING))
-    players = [_Player(case, worlds, sensing) for sensing in variants]
-    for player in players:
-        player.play(steps)
-    turns = [[player.play(steps) for player in players] for _ in range(rounds)]
+    turns = []
+    for seed in range(seeds):
+        players = [_Player(case, worlds, seed, sensing) for sensing in variants]
+        for player in players:
+            player.play(steps)
+        turns += [[player.play(steps) for player in players] for _ in range(rounds)]
     without = statistics.median(turn[0] for turn in turns) / worlds / steps
     added = [statistics.median(turn[nth] / turn[0] - 1.0 for turn in turns) for nth in (1, 2)]
     return Cost(case, without * 1e6, *added)
@@ -81,11 +85,11 @@ def measure(case: Case, worlds: int, rounds: int, steps: int) -> Cost:
 class _Player:
     """Matches with learners that act at random."""
 
-    def __init__(self, case: Case, worlds: int, sensing: Sensing | None) -> None:
-        self._matches = rsoccer.Matches(case.task, worlds, 0, sensing=sensing, **case.options)
+    def __init__(self, case: Case, worlds: int, seed: int, sensing: Sensing | None) -> None:
+        self._matches = rsoccer.Matches(case.task, worlds, seed, sensing=sensing, **case.options)
         self._matches.reset()
         shape = (16, worlds, len(self._matches.agents), self._matches.action_size)
-        self._actions = np.random.default_rng(0).uniform(-1.0, 1.0, shape).astype(np.float32)
+        self._actions = np.random.default_rng(seed).uniform(-1.0, 1.0, shape).astype(np.float32)
 
     def play(self, steps: int) -> float:
         """Processor time of some steps, s."""
@@ -123,10 +127,12 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--worlds", type=int, default=64, help="matches at once")
-    parser.add_argument("--rounds", type=int, default=40, help="turns of each variant")
+    parser.add_argument("--seeds", type=int, default=8, help="seeds of matches and actions")
+    parser.add_argument("--rounds", type=int, default=20, help="turns of each variant with a seed")
     parser.add_argument("--steps", type=int, default=25, help="control steps in a turn")
     given = parser.parse_args(arguments)
-    costs = [measure(case, given.worlds, given.rounds, given.steps) for case in CASES]
+    numbers = (given.worlds, given.seeds, given.rounds, given.steps)
+    costs = [measure(case, *numbers) for case in CASES]
     sys.stdout.write(report(costs) + "\n")
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Protocol
 
 import numpy as np
@@ -113,14 +114,14 @@ class SimulatedSenses(Senses):
         numbers = None if self.ranges is None else self.ranges.draw(self.rng)
         self.stepper.begin_senses(mask, keys, numbers)
         rows = np.empty((self.total, frame.rows.shape[1]), np.float32)
-        for team, known in self._known():
+        for team, known in self._known:
             self.stepper.sense(rows, mask, *team)
             known.rows[:] = rows[worlds]
         self._join()
 
     def sense(self, frame: Frame, active: Mask | None = None) -> None:
         """Sense the state after a step; see `Senses.sense`."""
-        for team, known in self._known():
+        for team, known in self._known:
             self.stepper.sense(known.rows, active, *team)
         self._join()
 
@@ -132,6 +133,7 @@ class SimulatedSenses(Senses):
         part = (self.stepper, self.total, self.ranges, self.observing)
         return SimulatedSenses(*part, frame, rng, teams)
 
+    @cached_property
     def _known(self) -> tuple[tuple[tuple[str | None, ...], Frame], ...]:
         """Arguments `known` of `SensingStepper.sense`, () for its default, and frames for them."""
         if self.observing is None:

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::ball::impact::ContactBody;
 use crate::blocks::{BALL, Lanes, bits_of, place_of, robot};
 use crate::columns::{BALL_PARAMETERS, MAX_FACTOR, ROBOT_PARAMETERS};
-use crate::drive::{BlockWheels, WheelMap, wheels_of};
+use crate::drive::{BlockWheels, wheels_of};
 use crate::error::ConfigError;
 use crate::geometry::motion::Motion;
 use crate::geometry::outline::Outline;
@@ -69,18 +69,11 @@ pub(crate) struct RobotParameters {
     pub(crate) inverse_inertia: f32,
     /// Factor on the speed of kicks.
     pub(crate) kick_gain: f32,
-    /// Kinematics of a robot that is commanded by its velocity.
-    pub(crate) wheel_map: Option<WheelMap>,
 }
 
 impl RobotParameters {
     fn of(model: RobotModel, kick_gain: f32) -> Self {
-        let wheel_map = match &model.drive {
-            Drive::Omni(drive) => Some(WheelMap::of(drive)),
-            Drive::Differential(_) | Drive::OmniWheels(_) => None,
-        };
         Self {
-            wheel_map,
             outline: Outline::of(model.body),
             bounding_radius: model.bounding_radius(),
             inverse_mass: 1.0 / model.mass,

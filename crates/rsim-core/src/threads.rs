@@ -61,6 +61,9 @@ impl Threads {
 
     /// Number of rows in a portion, `min` to `max`, if `rows` rows are shared.
     pub fn portion(&self, rows: usize, min: usize, max: usize) -> usize {
+        if self.count == 1 {
+            return max;
+        }
         (rows / (PORTIONS * self.count)).clamp(min, max)
     }
 

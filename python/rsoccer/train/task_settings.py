@@ -111,9 +111,10 @@ TASK_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
         "samples": 40 * M,
         # Half of the failures of a policy without it are touches of opponents.
         "network.shield": "ssl_attack",
+        # With .3 two of five seeds never scored from the corner beside the goalkeeper.
         "task_options": {
             "random_start": True,
-            "scenario_fraction": 0.3,
+            "scenario_fraction": 0.5,
             "reward_weights": {"failed": -0.3},
         },
     },

@@ -11,7 +11,7 @@ pub(super) use tipping::TippingState;
 use serde::{Deserialize, Serialize};
 use tipping::Tipping;
 
-use super::{Driven, MAX_COLUMNS, OwnMotion, WheelEffect};
+use super::{Driven, Errors, MAX_COLUMNS, OwnMotion, WheelEffect};
 use crate::blocks::{LANES, Lanes, VectorLanes, lanes_of, larger, limited, smaller};
 use crate::models::robot::DifferentialDrive;
 
@@ -110,6 +110,18 @@ impl Wheels {
             stop_turning: Lanes::splat(0.25) / turning,
             tipping: Tipping::of(robots),
         }
+    }
+
+    /// The commands `[left, right, ..]`, rad/s, as wheels with errors obey them. A robot clips each of its wheels
+    /// before the battery slows both.
+    pub(super) fn obeyed(
+        &self,
+        [left, right, others @ ..]: [Lanes; MAX_COLUMNS],
+        errors: Errors<'_>,
+    ) -> [Lanes; MAX_COLUMNS] {
+        let speeds = [left, right].map(|speed| limited(speed, self.max_wheel_speed));
+        let [left, right] = errors.turn(speeds, self.wheel_radius, self.max_wheel_speed);
+        [left, right, others[0], others[1]]
     }
 
     /// Effect of the wheels that follow the speeds `[left, right, ..]`, rad/s, in a tick, for the robots

@@ -5,14 +5,13 @@
 
 mod differential;
 mod omni;
-
 pub(crate) use omni::WheelMap;
 
 use differential::TippingState;
 use serde::{Deserialize, Serialize};
 
 use crate::blocks::{
-    BALL, LANES, Lanes, VectorLanes, blocks_of, mask_of, mask_of_bits, place_of, robot,
+    LANES, Lanes, VectorLanes, blocks_of, larger, mask_of, mask_of_bits, place_of, robot, smaller,
 };
 use crate::geometry::motion_block::MotionBlock;
 use crate::math::Vector;
@@ -20,6 +19,9 @@ use crate::models::robot::{DifferentialDrive, Drive, OmniDrive, RobotModel};
 
 /// Number of columns of the longest part of a command for the wheels.
 const MAX_COLUMNS: usize = 4;
+
+/// Number of wheels of a robot at most.
+pub(crate) const MAX_WHEELS: usize = 4;
 
 /// Wheels of the robots of a block, in one tick.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -38,6 +40,32 @@ pub(crate) struct BlockWheels {
 struct Mounted<W> {
     mask: Lanes,
     wheels: W,
+}
+
+/// Errors of the wheels of a block.
+#[derive(Clone, Copy)]
+pub(crate) struct Errors<'a> {
+    /// Factors on the speeds of the wheels.
+    pub(crate) gains: &'a [Lanes; MAX_WHEELS],
+    /// Speed below which a wheel stands, m/s at the rim.
+    pub(crate) dead_zone: f32,
+    /// Part of the maximum speeds that the battery leaves.
+    pub(crate) battery: f32,
+}
+
+impl Errors<'_> {
+    /// Speeds of wheels that are to turn at `speeds` and turn at up to `most` with a full battery, rad/s. A robot whose
+    /// fastest wheel is limited goes the same way more slowly.
+    fn turn<const N: usize>(self, speeds: [Lanes; N], radius: Lanes, most: Lanes) -> [Lanes; N] {
+        let dead_zone = Lanes::splat(self.dead_zone) / radius;
+        let fastest = speeds.iter().fold(Lanes::ZERO, |most, speed| larger(most, speed.abs()));
+        // At rest the ratio is infinite.
+        let slower = smaller(Lanes::splat(self.battery) * most / fastest, Lanes::ONE);
+        std::array::from_fn(|wheel| {
+            let stands = speeds[wheel].abs().simd_lt(dead_zone);
+            (speeds[wheel] * (self.gains[wheel] * slower)) & !stands
+        })
+    }
 }
 
 /// A robot's drive of one kind, with the mass (kg) and moment of inertia (kg m²) that it moves.
@@ -110,19 +138,36 @@ pub(crate) struct BlockCommands([Lanes; MAX_COLUMNS]);
 impl BlockCommands {
     /// Reads the commands of block `block` from rows of `columns` numbers, one row per robot.
     pub(crate) fn read(commands: &[f32], columns: usize, block: usize) -> Self {
-        let mut read = [[0.0; LANES]; MAX_COLUMNS];
-        let first = block * LANES;
-        for lane in 0..LANES {
-            let body = first + lane;
-            if body == BALL {
-                continue;
+        let row = |lane: usize| {
+            let body = block * LANES + lane;
+            let robot = body.checked_sub(robot(0));
+            let row = robot.and_then(|robot| commands.get(robot * columns..)?.get(..columns));
+            match row.unwrap_or_default() {
+                [first, second, third, fourth, ..] => [*first, *second, *third, *fourth],
+                [left, right] => [*left, *right, 0.0, 0.0],
+                row => std::array::from_fn(|column| row.get(column).copied().unwrap_or_default()),
             }
-            let Some(row) = commands.get((body - robot(0)) * columns..) else { break };
-            for (read, column) in read.iter_mut().zip(row.iter().take(columns)) {
-                read[lane] = *column;
-            }
+        };
+        Self(Lanes::transpose(std::array::from_fn(|lane| Lanes::from(row(lane)))))
+    }
+
+    /// Replaces the commands by those that wheels with errors obey.
+    pub(crate) fn obey(&mut self, wheels: &BlockWheels, errors: Errors<'_>) {
+        let BlockWheels { differential, omni, each_omni, .. } = wheels;
+        if let Some(Mounted { mask, wheels }) = differential {
+            self.replace(*mask, wheels.obeyed(self.0, errors));
         }
-        Self(read.map(Lanes::from))
+        if let Some(Mounted { mask, wheels }) = omni {
+            self.replace(*mask, wheels.obeyed_velocity(self.0, errors));
+        }
+        if let Some(Mounted { mask, wheels }) = each_omni {
+            self.replace(*mask, wheels.obeyed_wheel_speeds(self.0, errors));
+        }
+    }
+
+    /// Replaces the commands in the lanes of `mask`.
+    fn replace(&mut self, mask: Lanes, by: [Lanes; MAX_COLUMNS]) {
+        self.0 = std::array::from_fn(|column| mask.bitselect(by[column], self.0[column]));
     }
 
     /// Commands the wheels in the lanes of `mask` to stand still.

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Driven, MAX_COLUMNS, OwnMotion, WheelEffect};
+use super::{Driven, Errors, MAX_COLUMNS, OwnMotion, WheelEffect};
 use crate::blocks::{LANES, Lanes, VectorLanes, lanes_of, larger, limited, smaller};
 use crate::columns::MAX_COMMAND;
 use crate::math::Rotation;
@@ -21,6 +21,7 @@ pub(super) struct Wheels {
     from_body: [[Lanes; 3]; 4],
     /// Least-squares inverse of `from_body`, for wheel speeds that do not fit together.
     to_body: [[Lanes; 4]; 3],
+    wheel_radius: Lanes,
     max_wheel_speed: Lanes,
     max_speed: Lanes,
     max_angular_velocity: Lanes,
@@ -51,6 +52,7 @@ impl Wheels {
             to_body: std::array::from_fn(|part| {
                 std::array::from_fn(|wheel| lanes_of(|lane| to_body[lane][part][wheel]))
             }),
+            wheel_radius: lanes(&|robot| robot.drive.wheel_radius),
             max_wheel_speed: lanes(&|robot| robot.drive.max_wheel_speed),
             max_speed: lanes(&|robot| robot.drive.max_speed),
             max_angular_velocity: lanes(&|robot| robot.drive.max_angular_velocity),
@@ -72,6 +74,43 @@ impl Wheels {
         }
     }
 
+    /// The commands `[forward, left, angular velocity, ..]` as wheels with errors obey them. The robot limits its own
+    /// speeds before those of its wheels.
+    pub(super) fn obeyed_velocity(
+        &self,
+        [x, y, turn, other]: [Lanes; MAX_COLUMNS],
+        errors: Errors<'_>,
+    ) -> [Lanes; MAX_COLUMNS] {
+        let battery = Lanes::splat(errors.battery);
+        let velocity = VectorLanes { x, y }.of_length_at_most(battery * self.max_speed);
+        let turn = limited(turn, battery * self.max_angular_velocity);
+        let speeds = self.wheel_speeds(velocity, turn);
+        let speeds = errors.turn(speeds, self.wheel_radius, self.max_wheel_speed);
+        let [x, y, turn] = self.body_velocity(&speeds);
+        [x, y, turn, other]
+    }
+
+    /// The commands of four wheel speeds, rad/s, as wheels with errors obey them.
+    pub(super) fn obeyed_wheel_speeds(
+        &self,
+        speeds: [Lanes; MAX_COLUMNS],
+        errors: Errors<'_>,
+    ) -> [Lanes; MAX_COLUMNS] {
+        errors.turn(speeds, self.wheel_radius, self.max_wheel_speed)
+    }
+
+    /// Wheel speeds (rad/s) of velocities forward and to the left (m/s) and angular velocities (rad/s).
+    fn wheel_speeds(&self, velocity: VectorLanes, turn: Lanes) -> [Lanes; 4] {
+        self.from_body.map(|row| row[0] * velocity.x + row[1] * velocity.y + row[2] * turn)
+    }
+
+    /// The velocities and angular velocities that fit the speeds of four wheels best.
+    fn body_velocity(&self, speeds: &[Lanes; 4]) -> [Lanes; 3] {
+        self.to_body.map(|row| {
+            row[0] * speeds[0] + row[1] * speeds[1] + row[2] * speeds[2] + row[3] * speeds[3]
+        })
+    }
+
     /// Target of the commands `[forward, left, angular velocity, ..]`.
     pub(super) fn target_of_velocity(&self, command: &[Lanes; MAX_COLUMNS]) -> TargetVelocity {
         let limit = Lanes::splat(MAX_COMMAND);
@@ -83,9 +122,7 @@ impl Wheels {
     pub(super) fn target_of_wheel_speeds(&self, command: &[Lanes; MAX_COLUMNS]) -> TargetVelocity {
         let factor = self.saturation_factor(&command.map(Lanes::abs));
         let speeds = command.map(|speed| speed * factor);
-        let [x, y, angular_velocity] = self.to_body.map(|row| {
-            row[0] * speeds[0] + row[1] * speeds[1] + row[2] * speeds[2] + row[3] * speeds[3]
-        });
+        let [x, y, angular_velocity] = self.body_velocity(&speeds);
         self.saturated(VectorLanes { x, y }, angular_velocity)
     }
 
@@ -93,9 +130,8 @@ impl Wheels {
     fn saturated(&self, velocity: VectorLanes, angular_velocity: Lanes) -> TargetVelocity {
         let velocity = velocity.of_length_at_most(self.max_speed);
         let angular_velocity = limited(angular_velocity, self.max_angular_velocity);
-        let factor = self.saturation_factor(&self.from_body.map(|row| {
-            (row[0] * velocity.x + row[1] * velocity.y + row[2] * angular_velocity).abs()
-        }));
+        let speeds = self.wheel_speeds(velocity, angular_velocity);
+        let factor = self.saturation_factor(&speeds.map(Lanes::abs));
         TargetVelocity { velocity: velocity * factor, angular_velocity: angular_velocity * factor }
     }
 
@@ -168,31 +204,24 @@ fn compensated_load(load: VectorLanes, error: VectorLanes, change: VectorLanes) 
     load - change * (moves & exceeds & along)
 }
 
-/// Wheel speeds (rad/s) from velocity forward and to the left and angular velocity, one row per wheel.
-/// Kinematics of one robot: from the velocity of its body to the speeds of its wheels and back.
+/// Kinematics of one robot: from the velocity of its body to the speeds of its wheels.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct WheelMap {
     from_body: [[f32; 3]; 4],
-    to_body: [[f32; 4]; 3],
 }
 
 impl WheelMap {
     pub(crate) fn of(drive: &OmniDrive) -> Self {
-        let from_body = from_body(drive);
-        Self { to_body: least_squares_inverse(&from_body), from_body }
+        Self { from_body: from_body(drive) }
     }
 
     /// Wheel speeds (rad/s) of a velocity forward and to the left (m/s) and an angular velocity (rad/s).
     pub(crate) fn wheel_speeds(&self, [x, y, turn]: [f32; 3]) -> [f32; 4] {
         self.from_body.map(|row| row[0] * x + row[1] * y + row[2] * turn)
     }
-
-    /// The velocity and angular velocity that fit the speeds of four wheels best.
-    pub(crate) fn velocity(&self, speeds: &[f32]) -> [f32; 3] {
-        self.to_body.map(|row| row.iter().zip(speeds).map(|(part, speed)| part * speed).sum())
-    }
 }
 
+/// Wheel speeds (rad/s) from velocity forward and to the left and angular velocity, one row per wheel.
 fn from_body(drive: &OmniDrive) -> [[f32; 3]; 4] {
     drive.wheel_angles.map(|degrees| {
         let Rotation { re: cos, im: sin } = Rotation::new(degrees.to_radians());

@@ -3,15 +3,13 @@
 use serde::{Deserialize, Serialize};
 
 use crate::ball::mouth::Kicker;
-use crate::body_parameters::{BodyParameters, RobotParameters};
+use crate::blocks::{Lanes, blocks_of, larger, set_bits};
+use crate::body_parameters::BodyParameters;
+use crate::drive::{Errors, MAX_WHEELS};
 use crate::geometry::motion::rotated;
 use crate::math::Vector;
-use crate::models::robot::Drive;
 use crate::models::sensing::Sensing;
 use crate::senses::random::{Draws, Purpose};
-
-/// Number of wheels of a robot at most.
-const WHEELS: usize = 4;
 
 /// Part of the maximum speed that an empty battery leaves.
 const EMPTY_BATTERY: f32 = 0.5;
@@ -19,50 +17,31 @@ const EMPTY_BATTERY: f32 = 0.5;
 /// Actuators of all robots of a match.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Actuators {
-    /// The robots' wheels.
-    wheels: Vec<Wheels>,
+    /// Factors on the speeds of the wheels, by block.
+    gains: Vec<[Lanes; MAX_WHEELS]>,
     /// The robots' kickers.
     kickers: Vec<Kicker>,
-    /// Commands as the robots obey them, a row for each.
+    /// Commands as the robots hear them and kickers and dribblers obey them, a row for each.
     commands: Vec<f32>,
-}
-
-/// The wheels of a robot: factors on their speeds.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
-struct Wheels {
-    gains: [f32; WHEELS],
-}
-
-impl Wheels {
-    fn new(sensing: &Sensing, draws: &mut Draws) -> Self {
-        let gain = |_| (1.0 + draws.normal(sensing.wheel_error)).max(0.0);
-        Self { gains: std::array::from_fn(gain) }
-    }
-
-    /// Turns wheels that stand below `dead_zone` and do not turn faster than `limit`, rad/s. A robot whose
-    /// fastest wheel is limited goes the same way more slowly.
-    fn turn(&self, speeds: &mut [f32], dead_zone: f32, limit: f32) {
-        let fastest = speeds.iter().fold(0.0_f32, |most, speed| most.max(speed.abs()));
-        let slower = if fastest > limit { limit / fastest } else { 1.0 };
-        for (speed, gain) in speeds.iter_mut().zip(&self.gains) {
-            *speed *= if speed.abs() < dead_zone { 0.0 } else { gain * slower };
-        }
-    }
+    /// Part of the maximum speeds that the batteries left when the robots heard them.
+    battery: f32,
 }
 
 impl Actuators {
     /// The actuators of all robots, with their errors. A command has `columns` numbers.
     pub(super) fn new(robots: usize, columns: usize, sensing: &Sensing, draws: &mut Draws) -> Self {
+        let mut gain = || larger(Lanes::ONE + draws.normal_lanes(sensing.wheel_error), Lanes::ZERO);
         Self {
-            wheels: (0..robots).map(|_| Wheels::new(sensing, draws)).collect(),
+            gains: (0..blocks_of(robots)).map(|_| std::array::from_fn(|_| gain())).collect(),
             kickers: vec![Kicker::EXACT; robots],
             commands: vec![0.0; robots * columns],
+            battery: 1.0,
         }
     }
 
     /// Takes in the commands that robots have heard, those of control step `number`. `seconds` is the time
     /// that the batteries have worked.
-    pub(super) fn obey(
+    pub(super) fn hear(
         &mut self,
         heard: &[f32],
         number: u64,
@@ -71,44 +50,34 @@ impl Actuators {
         parameters: &BodyParameters,
     ) {
         self.commands.copy_from_slice(heard);
-        let battery = (1.0 - sensing.battery_sag * seconds).max(EMPTY_BATTERY);
-        if battery >= 1.0 && obeys_exactly(sensing) {
+        self.battery = (1.0 - sensing.battery_sag * seconds).max(EMPTY_BATTERY);
+        if parameters.mouths == 0 || self.battery >= 1.0 && kickers_are_exact(sensing) {
             return;
         }
         let mut draws = Draws::of(key, Purpose::Command, !number);
-        let kick_failures = draws.which(sensing.kick_failures, self.wheels.len());
-        let dribbler_failures = draws.which(sensing.dribbler_failures, self.wheels.len());
-        let columns = heard.len() / self.wheels.len().max(1);
-        let inexact = sensing.wheel_error > 0.0 || sensing.wheel_dead_zone > 0.0 || battery < 1.0;
-        let robots = self.commands.chunks_exact_mut(columns.max(1)).zip(&self.wheels);
-        for (index, (command, wheels)) in robots.enumerate() {
-            let robot = &parameters.robots[index];
-            let model = &robot.model;
-            if inexact {
-                drive(command, robot, wheels, sensing.wheel_dead_zone, battery);
+        let [kick_failures, dribbler_failures] = [sensing.kick_failures, sensing.dribbler_failures]
+            .map(|probability| draws.which_of(probability, parameters.mouths));
+        let columns = heard.len() / self.kickers.len().max(1);
+        for index in set_bits(parameters.mouths) {
+            let model = &parameters.robots[index].model;
+            let own = &mut self.commands[index * columns..][..model.command_columns().len()];
+            let [.., kick, chip, dribbler] = own else { continue };
+            if kick_failures >> index & 1 == 1 {
+                (*kick, *chip) = (0.0, 0.0);
             }
-            if model.mouth.is_some() {
-                let [.., kick, chip, dribbler] = &mut command[..model.command_columns().len()]
-                else {
-                    continue;
-                };
-                if kick_failures >> index & 1 == 1 {
-                    (*kick, *chip) = (0.0, 0.0);
-                }
-                if dribbler_failures >> index & 1 == 1 {
-                    *dribbler = 0.0;
-                }
-                let noise = draws.normal(sensing.kick_speed_noise);
-                let angle = draws.normal(sensing.kick_direction_noise);
-                self.kickers[index] = Kicker {
-                    gain: battery * (1.0 + noise).max(0.0),
-                    direction: rotated(Vector::X, angle),
-                };
+            if dribbler_failures >> index & 1 == 1 {
+                *dribbler = 0.0;
             }
+            let noise = draws.normal(sensing.kick_speed_noise);
+            let angle = draws.normal(sensing.kick_direction_noise);
+            self.kickers[index] = Kicker {
+                gain: self.battery * (1.0 + noise).max(0.0),
+                direction: rotated(Vector::X, angle),
+            };
         }
     }
 
-    /// The commands as the robots obey them, a row for each.
+    /// The commands that the robots have heard, a row for each; kickers and dribblers that fail have none.
     pub(super) fn commands(&self) -> &[f32] {
         &self.commands
     }
@@ -117,49 +86,19 @@ impl Actuators {
     pub(super) fn kicker(&self, robot: usize) -> Kicker {
         self.kickers[robot]
     }
-}
 
-/// Whether full batteries are all that robots need to obey exactly.
-fn obeys_exactly(sensing: &Sensing) -> bool {
-    let Sensing { wheel_error, wheel_dead_zone, kick_failures, dribbler_failures, .. } = *sensing;
-    let Sensing { kick_speed_noise, kick_direction_noise, .. } = *sensing;
-    let wheels = [wheel_error, wheel_dead_zone];
-    let kickers = [kick_failures, dribbler_failures, kick_speed_noise, kick_direction_noise];
-    wheels.iter().chain(&kickers).all(|number| *number == 0.0)
-}
-
-/// Changes the part of a command that the wheels follow: the speed of each wheel is 0 in the dead zone (m/s
-/// at the rim), wrong by its factor, and at most what the battery allows.
-fn drive(
-    command: &mut [f32],
-    robot: &RobotParameters,
-    wheels: &Wheels,
-    dead_zone: f32,
-    battery: f32,
-) {
-    match (&robot.model.drive, &robot.wheel_map) {
-        (Drive::Differential(drive), _) => {
-            // A robot clips each of its wheels before the battery slows both.
-            let most = drive.max_wheel_speed;
-            for speed in &mut command[..2] {
-                *speed = speed.clamp(-most, most);
-            }
-            wheels.turn(&mut command[..2], dead_zone / drive.wheel_radius, battery * most);
-        }
-        (Drive::Omni(drive), Some(map)) => {
-            // The robot limits its own speeds before those of its wheels.
-            let velocity = Vector::new(command[0], command[1]);
-            let velocity = velocity.clamp_length_max(battery * drive.max_speed);
-            let limit = battery * drive.max_angular_velocity;
-            let turn = command[2].clamp(-limit, limit);
-            let mut speeds = map.wheel_speeds([velocity.x, velocity.y, turn]);
-            let limit = battery * drive.max_wheel_speed;
-            wheels.turn(&mut speeds, dead_zone / drive.wheel_radius, limit);
-            command[..3].copy_from_slice(&map.velocity(&speeds));
-        }
-        (Drive::Omni(drive) | Drive::OmniWheels(drive), _) => {
-            let limit = battery * drive.max_wheel_speed;
-            wheels.turn(&mut command[..WHEELS], dead_zone / drive.wheel_radius, limit);
-        }
+    /// Errors of the wheels of a block; `None` if they obey exactly.
+    pub(super) fn wheel_errors(&self, block: usize, sensing: &Sensing) -> Option<Errors<'_>> {
+        let (dead_zone, battery) = (sensing.wheel_dead_zone, self.battery);
+        let are_exact = sensing.wheel_error == 0.0 && dead_zone == 0.0 && battery >= 1.0;
+        (!are_exact).then(|| Errors { gains: &self.gains[block], dead_zone, battery })
     }
+}
+
+/// Whether full batteries are all that kickers and dribblers need to obey exactly.
+fn kickers_are_exact(sensing: &Sensing) -> bool {
+    let Sensing { kick_failures, dribbler_failures, .. } = *sensing;
+    let Sensing { kick_speed_noise, kick_direction_noise, .. } = *sensing;
+    let all = [kick_failures, dribbler_failures, kick_speed_noise, kick_direction_noise];
+    all.iter().all(|number| *number == 0.0)
 }

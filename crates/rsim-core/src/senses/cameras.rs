@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::blocks::{
-    BALL, Lanes, VectorLanes, lanes_of_robots, mask_of_bits, robot, robot_at, set_bits,
+    BALL, LANES, Lanes, VectorLanes, lanes_of_robots, mask_of_bits, robot, robot_at, set_bits,
 };
 use crate::geometry::motion::Motion;
 use crate::math::Vector;
@@ -11,10 +11,11 @@ use crate::models::config::SimConfig;
 use crate::models::sensing::Sensing;
 use crate::senses::Watched;
 use crate::senses::detections::{BallMotion, DetectedBall, DetectedBlock, DetectedRobot};
-use crate::senses::exposed::Exposed;
+use crate::senses::exposed::{Exposed, Film, Instant};
 use crate::senses::frames::Frames;
 use crate::senses::random::{Draws, Purpose};
 use crate::senses::visibility::{Lens, Obstacle};
+use crate::state::State;
 
 /// The cameras of a match.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -98,33 +99,39 @@ impl Cameras {
         period
     }
 
-    /// Exposes the frames of the tick that ended at `now` (s).
-    pub(super) fn expose(
-        &mut self,
-        now: f64,
-        (sensing, key): (&Sensing, u64),
-        watched: Watched<'_>,
-        frames: &mut Frames,
-    ) {
+    /// Exposes the frames of the tick that ended at `now` (s). `key` is that of the random numbers.
+    pub(super) fn expose(&mut self, now: f64, key: u64, state: &State, film: &mut Film) {
         while self.next <= now + ROUNDING {
-            let time = self.next;
-            let mut draws = Draws::of(key, Purpose::Frame, self.exposures);
+            #[expect(clippy::cast_possible_truncation, reason = "less than a tick")]
+            let age = (now - self.next).max(0.0) as f32;
+            film.expose(Instant { time: self.next, number: self.exposures, key }, age, state);
             self.exposures += 1;
             #[expect(clippy::cast_precision_loss, reason = "no match has 2^52 frames")]
             let exposures = self.exposures as f64;
             self.next = self.phase + self.period * exposures;
+        }
+    }
+
+    /// Adds the frames of the step that ended: what the cameras detect in its exposures.
+    pub(super) fn develop<'a>(
+        &self,
+        exposures: impl Iterator<Item = Exposed<'a>>,
+        sensing: &Sensing,
+        frames: &mut Frames,
+    ) {
+        for exposed in exposures {
+            let Instant { time, number, key } = exposed.instant();
+            let mut draws = Draws::of(key, Purpose::Frame, number);
             if draws.happens(sensing.frame_loss) {
                 continue;
             }
-            #[expect(clippy::cast_possible_truncation, reason = "less than a tick")]
-            let age = (now - time).max(0.0) as f32;
-            let exposed = Exposed { watched, age };
             let jitter = f64::from(sensing.delay_jitter);
             let jitter = if jitter > 0.0 { jitter * f64::from(draws.deviation()) } else { 0.0 };
             let due = (time + f64::from(sensing.delay) + jitter).max(time);
-            add_robots(exposed, sensing, &mut draws, frames);
+            let mut of_ball = Some(add_robots(exposed, sensing, &mut draws, frames));
             for camera in &self.all {
-                camera.detect(exposed, sensing, self.period, &mut draws, frames);
+                let noise = (&mut draws, &mut of_ball);
+                camera.detect(exposed, sensing, self.period, noise, frames);
             }
             frames.end_frame(time, due);
         }
@@ -139,16 +146,19 @@ impl Cameras {
         watched: Watched<'_>,
         frames: &mut Frames,
     ) {
-        let exposed = Exposed { watched, age: 0.0 };
+        let mut film = Film::default();
+        film.expose(Instant { time: now, number: 0, key: 0 }, 0.0, watched.state);
+        let exposed = film.of(0, watched.parameters).next().expect("an exposure");
         let nearest = |position: Vector| {
             let all = self.all.iter();
             let distance = |camera: &&Camera| (camera.middle - position).length_squared();
             all.min_by(|a, b| distance(a).total_cmp(&distance(b))).expect("at least one")
         };
         let motion = exposed.motion(BALL);
-        let (ball, motion) = nearest(motion.position).detect_ball(exposed, &motion, sensing, draws);
+        let noise = draws.normals(sensing.ball_position_noise);
+        let (ball, motion) = nearest(motion.position).detect_ball(exposed, &motion, sensing, noise);
         frames.add_ball(ball, Some(motion));
-        for block in 0..exposed.blocks() {
+        for block in 0..exposed.motions().len() {
             let mut detected = DetectedBlock::NONE;
             for lane in set_bits(lanes_of_robots(exposed.robots_on_field(), block).into()) {
                 let index = robot_at(block, lane);
@@ -163,17 +173,31 @@ impl Cameras {
 }
 
 /// Adds all robots to a frame as cameras without errors of their own would detect them, but none as detected yet.
-fn add_robots(exposed: Exposed<'_>, sensing: &Sensing, draws: &mut Draws, frames: &mut Frames) {
+/// Returns the noise of the ball's first detection, m.
+fn add_robots(
+    exposed: Exposed<'_>,
+    sensing: &Sensing,
+    draws: &mut Draws,
+    frames: &mut Frames,
+) -> Vector {
+    let mut of_ball = Vector::ZERO;
+    let mut deviations = [sensing.robot_position_noise; LANES];
+    deviations[BALL] = sensing.ball_position_noise;
     let has_motions = knows_motions(sensing);
-    for block in 0..exposed.blocks() {
-        let [x, y] = [(); 2].map(|()| draws.normal_lanes(sensing.robot_position_noise));
+    for (block, true_motion) in exposed.motions().iter().enumerate() {
+        let noise = draws.normal_vectors(Lanes::from(deviations));
+        if block == 0 {
+            of_ball = noise.get(BALL);
+            deviations[BALL] = sensing.robot_position_noise;
+        }
         let turned = draws.normal_lanes(sensing.heading_noise);
-        let position = exposed.positions(block) + VectorLanes { x, y };
-        let heading = exposed.headings(block);
+        let position = true_motion.position + noise;
+        let heading = true_motion.heading;
         let heading = heading + heading.perp() * turned;
         let detected = DetectedBlock { position, heading, ..DetectedBlock::NONE };
         frames.add_block(detected, has_motions.then(|| exposed.velocities(block)));
     }
+    of_ball
 }
 
 /// Whether robots know the motions of what is detected: without a tracker.
@@ -213,23 +237,25 @@ impl Camera {
         along & across
     }
 
-    /// Adds what the camera detects to a frame.
+    /// Adds what the camera detects to a frame. `of_ball` is the noise of the ball's first detection, m.
     fn detect(
         &self,
         exposed: Exposed<'_>,
         sensing: &Sensing,
         period: f64,
-        draws: &mut Draws,
+        (draws, of_ball): (&mut Draws, &mut Option<Vector>),
         frames: &mut Frames,
     ) {
         let has_motions = knows_motions(sensing);
-        let parameters = exposed.watched.parameters;
+        let parameters = exposed.parameters;
         let ball = exposed.motion(BALL);
         if self.sees(VectorLanes::splat(ball.position)).any()
             && !draws.happens(sensing.missing_balls)
             && !self.is_hidden(exposed, ball.position, sensing)
         {
-            let (seen, motion) = self.detect_ball(exposed, &ball, sensing, draws);
+            let noise =
+                of_ball.take().unwrap_or_else(|| draws.normals(sensing.ball_position_noise));
+            let (seen, motion) = self.detect_ball(exposed, &ball, sensing, noise);
             frames.add_ball(seen, has_motions.then_some(motion));
         }
         #[expect(clippy::cast_possible_truncation, reason = "a duration")]
@@ -238,9 +264,9 @@ impl Camera {
         let missing = draws.which(sensing.missing_robots, robots);
         let misread = draws.which(sensing.misread_headings, robots);
         let ghosts = draws.which(ghost, robots);
-        let (count, on_field) = (exposed.blocks(), exposed.robots_on_field());
-        for block in 0..count {
-            let inside = self.sees(exposed.positions(block)).to_bitmask();
+        let (count, on_field) = (exposed.motions().len(), exposed.robots_on_field());
+        for (block, motions) in exposed.motions().iter().enumerate() {
+            let inside = self.sees(motions.position).to_bitmask();
             let there = lanes_of_robots(on_field, block);
             #[expect(clippy::cast_possible_truncation, reason = "four bits")]
             let inside = inside as u8 & there;
@@ -293,7 +319,7 @@ impl Camera {
         if sensing.visible_part == 0.0 || sensing.camera_height == 0.0 {
             return false;
         }
-        let parameters = exposed.watched.parameters;
+        let parameters = exposed.parameters;
         let radius = parameters.ball.radius;
         let (lens, z) = (self.lens(sensing.camera_height), exposed.height() + radius);
         // A robot that hides the ball is nearer to the camera, or touches it.
@@ -308,24 +334,24 @@ impl Camera {
         })
     }
 
-    /// The ball as the camera detects it, and its motion.
+    /// The ball as the camera detects it with `noise` (m), and its motion.
     fn detect_ball(
         &self,
         exposed: Exposed<'_>,
         ball: &Motion,
         sensing: &Sensing,
-        draws: &mut Draws,
+        noise: Vector,
     ) -> (DetectedBall, BallMotion) {
         let (velocity, camera) = (ball.velocity, self.index);
-        let noise = draws.normals(sensing.ball_position_noise);
-        let (true_ball, z) = (&exposed.watched.state.ball, exposed.height());
+        let z = exposed.height();
         if sensing.camera_height == 0.0 {
             let position = ball.position + self.offset + noise;
-            let motion = BallMotion { velocity, v_z: true_ball.v_z, spin: true_ball.spin };
+            let (v_z, spin) = exposed.ball_motion();
+            let motion = BallMotion { velocity, v_z, spin };
             return (DetectedBall { position, z, camera }, motion);
         }
         let seen = self.lens(sensing.camera_height).on_floor(ball.position, z);
-        let rolling = velocity.perp() / exposed.watched.parameters.ball.radius;
+        let rolling = velocity.perp() / exposed.parameters.ball.radius;
         let motion = BallMotion { velocity, v_z: 0.0, spin: rolling.extend(0.0) };
         (DetectedBall { position: seen + self.offset + noise, z: 0.0, camera }, motion)
     }

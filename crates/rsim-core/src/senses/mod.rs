@@ -8,7 +8,7 @@ mod actuators;
 mod cameras;
 mod detections;
 mod driven;
-mod exposed;
+pub(crate) mod exposed;
 mod filter;
 pub(crate) mod frames;
 mod held;
@@ -31,17 +31,19 @@ use serde::{Deserialize, Serialize};
 
 use crate::ball::mouth::Kicker;
 use crate::body_parameters::BodyParameters;
+use crate::drive::Errors;
 use crate::forecast::commands::CommandLog;
 use crate::forecast::{Knowledge, MAX_FORECAST};
 use crate::models::config::SimConfig;
 use crate::models::sensing::Sensing;
 use crate::senses::actuators::Actuators;
 use crate::senses::driven::Orders;
+use crate::senses::exposed::Film;
 use crate::senses::frames::CameraFrame;
 use crate::senses::held::Beams;
 use crate::senses::link::Link;
 use crate::senses::random::{Draws, Purpose};
-use crate::senses::reports::Reports;
+use crate::senses::reports::{Reported, Reports};
 use crate::senses::vision::Vision;
 use crate::state::State;
 
@@ -137,7 +139,7 @@ impl Senses {
         #[expect(clippy::cast_possible_truncation, reason = "battery time needs no more digits")]
         let seconds = self.now(watched.config) as f32;
         let random = (&*self.sensing, self.key);
-        self.actuators.obey(
+        self.actuators.hear(
             self.link.commands(),
             change.number,
             seconds,
@@ -147,7 +149,7 @@ impl Senses {
         true
     }
 
-    /// The commands that the robots obey, a row for each.
+    /// The commands that the robots have heard, a row for each; kickers and dribblers that fail have none.
     pub(crate) fn commands(&self) -> &[f32] {
         self.actuators.commands()
     }
@@ -157,26 +159,32 @@ impl Senses {
         self.actuators.kicker(robot)
     }
 
+    /// Errors of the wheels of a block; `None` if they obey exactly.
+    pub(crate) fn wheel_errors(&self, block: usize) -> Option<Errors<'_>> {
+        self.actuators.wheel_errors(block, &self.sensing)
+    }
+
     /// Watches the state after a tick.
-    pub(crate) fn watch(&mut self, watched: Watched<'_>) {
+    pub(crate) fn watch(&mut self, watched: Watched<'_>, film: &mut Film) {
         self.ticks += 1;
         let now = self.now(watched.config);
         for vision in &mut self.visions {
-            vision.expose(now, &self.sensing, watched);
+            vision.expose(now, watched.state, film);
         }
     }
 
-    /// Ends a control step: robots report, and what has arrived is taken in. `models` are the parameters that teams
-    /// take robots to have.
-    pub(crate) fn end_step(&mut self, watched: Watched<'_>, models: &BodyParameters) {
+    /// Ends a control step with the exposures of its ticks: robots report, and what has arrived is taken in. `models`
+    /// are the parameters that teams take robots to have.
+    pub(crate) fn end_step(&mut self, film: &Film, watched: Watched<'_>, models: &BodyParameters) {
         let Watched { config, parameters, state } = watched;
         let now = self.now(config);
         self.reports.send(now, (&self.sensing, self.key), state, parameters);
         self.reports.receive(now);
         let beams = Beams { cut: self.reports.cut, parameters };
-        let orders = Orders::new(&self.sent, config, self.expected(config), models);
+        let expected = config.sensing.as_ref().unwrap_or(&self.sensing);
+        let orders = || Orders::new(&self.sent, config, expected, models);
         for vision in &mut self.visions {
-            vision.receive(now, &self.sensing, beams, orders);
+            vision.receive(now, film, &self.sensing, beams, orders);
         }
     }
 
@@ -188,13 +196,7 @@ impl Senses {
 
     /// Writes the row of what the robots of a team know.
     pub(crate) fn write_row(&self, knowledge: Knowledge, state: &State, out: &mut [f32]) {
-        row::write(
-            &self.vision(knowledge).tracker,
-            self.reports.cut,
-            |index| self.reports.own_motion(index),
-            state,
-            out,
-        );
+        row::write(&self.vision(knowledge).tracker, self.reports.known(), state, out);
     }
 
     /// Writes the row of what a team knows at the last frame, velocities too. It knows the commands of `robots`, one
@@ -207,7 +209,8 @@ impl Senses {
         out: &mut [f32],
     ) {
         let vision = self.vision(knowledge);
-        row::write(&vision.tracker, self.reports.cut, |_| None, state, out);
+        let reported = Reported { cut: self.reports.cut, motions: &[] };
+        row::write(&vision.tracker, reported, state, out);
         if let Some(driven) = &vision.driven {
             row::write_driven(driven, robots, !state.absent, out);
         }

@@ -1,8 +1,9 @@
 //! Random numbers of senses: counter-based, so that no order of calls matters.
 
-use std::sync::LazyLock;
+use wide::bytemuck::cast;
+use wide::{i32x4, u32x4};
 
-use crate::blocks::{Lanes, set_bits};
+use crate::blocks::{Lanes, VectorLanes};
 use crate::math::Vector;
 use crate::streams::{STRIDE, mixed, unit};
 
@@ -25,14 +26,15 @@ pub(super) enum Purpose {
 /// that the match's key, the purpose and the event's number determine.
 pub(super) struct Draws {
     word: u64,
-    layers: &'static Layers,
+    /// Numbers of the standard normal distribution that were drawn with others.
+    spare: Option<Lanes>,
 }
 
 impl Draws {
     /// The numbers of event `number` of a purpose, in the match with this key.
     pub(super) fn of(key: u64, purpose: Purpose, number: u64) -> Self {
         let event = mixed(number.wrapping_mul(STRIDE) ^ ((purpose as u64) << 56));
-        Self { word: mixed(key.wrapping_add(STRIDE) ^ event), layers: &LAYERS }
+        Self { word: mixed(key.wrapping_add(STRIDE) ^ event), spare: None }
     }
 
     fn next(&mut self) -> u64 {
@@ -74,6 +76,13 @@ impl Draws {
         happen
     }
 
+    /// Those of `things`, one bit each, that happen with this probability each. Nothing is drawn for 0, or for no
+    /// things.
+    pub(super) fn which_of(&mut self, probability: f32, things: u64) -> u64 {
+        let count = u64::BITS - things.leading_zeros();
+        if count == 0 { 0 } else { self.which(probability, count as usize) & things }
+    }
+
     /// A number from -1 to 1.
     pub(super) fn deviation(&mut self) -> f32 {
         2.0 * self.uniform() - 1.0
@@ -81,19 +90,25 @@ impl Draws {
 
     /// A number of a normal distribution with this standard deviation. Nothing is drawn for 0.
     pub(super) fn normal(&mut self, deviation: f32) -> f32 {
-        if deviation > 0.0 { deviation * self.standard_normal() } else { 0.0 }
+        self.normals(deviation).x
     }
 
-    /// Two numbers of a normal distribution with this standard deviation, from one word. Nothing is drawn
-    /// for 0.
+    /// Two numbers of a normal distribution with this standard deviation. Nothing is drawn for 0.
     pub(super) fn normals(&mut self, deviation: f32) -> Vector {
         if deviation <= 0.0 {
             return Vector::ZERO;
         }
         let word = self.next();
-        #[expect(clippy::cast_possible_truncation, reason = "the lower half")]
-        let lower = word as u32;
-        deviation * Vector::new(self.shaped(upper(word)), self.shaped(lower))
+        deviation * standard_normals([word; 2]).get(0)
+    }
+
+    /// Vectors whose coordinates are of normal distributions with these standard deviations, for the bodies of a block.
+    /// Nothing is drawn if all are 0.
+    pub(super) fn normal_vectors(&mut self, deviations: Lanes) -> VectorLanes {
+        if deviations == Lanes::ZERO {
+            return VectorLanes::ZERO;
+        }
+        self.standard_vectors() * deviations
     }
 
     /// Numbers of a normal distribution with this standard deviation for the bodies of a block. Nothing is drawn
@@ -102,104 +117,57 @@ impl Draws {
         if deviation <= 0.0 {
             return Lanes::ZERO;
         }
-        let [first, second] = [self.next(), self.next()];
-        #[expect(clippy::cast_possible_truncation, reason = "the lower halves")]
-        let bits = [upper(first), first as u32, upper(second), second as u32];
-        let layers = bits.map(|bits| (bits & 127) as usize);
-        let x = Lanes::from(bits.map(position)) * Lanes::from(layers.map(|at| self.layers.x[at]));
-        let inner = Lanes::from(layers.map(|layer| self.layers.x[layer + 1]));
-        let beyond = !(x.simd_lt(inner) & (-x).simd_lt(inner));
-        let mut numbers = x.to_array();
-        for lane in set_bits(beyond.to_bitmask().into()) {
-            numbers[lane] = self.outside(layers[lane], numbers[lane]);
-        }
-        Lanes::splat(deviation) * Lanes::from(numbers)
+        let standard = self.spare.take().unwrap_or_else(|| {
+            let VectorLanes { x, y } = self.standard_vectors();
+            self.spare = Some(y);
+            x
+        });
+        Lanes::splat(deviation) * standard
     }
 
-    /// A number of the standard normal distribution.
-    fn standard_normal(&mut self) -> f32 {
-        let bits = upper(self.next());
-        self.shaped(bits)
-    }
-
-    /// A number of the standard normal distribution from random bits, by the ziggurat method (Marsaglia and
-    /// Tsang, Journal of Statistical Software 5(8), 2000) with a layer and a position from one word.
-    #[inline]
-    fn shaped(&mut self, bits: u32) -> f32 {
-        let layer = (bits & 127) as usize;
-        let x = position(bits) * self.layers.x[layer];
-        if x.abs() < self.layers.x[layer + 1] { x } else { self.outside(layer, x) }
-    }
-
-    /// The number for a position outside the part of a layer that is below the density everywhere.
-    #[cold]
-    fn outside(&mut self, mut layer: usize, mut x: f32) -> f32 {
-        let layers = self.layers;
-        loop {
-            if layer == 0 {
-                return self.tail(x < 0.0);
-            }
-            let between = layers.density[layer + 1] - layers.density[layer];
-            if layers.density[layer] + between * self.uniform() < density(x) {
-                return x;
-            }
-            let bits = upper(self.next());
-            layer = (bits & 127) as usize;
-            x = position(bits) * layers.x[layer];
-            if x.abs() < layers.x[layer + 1] {
-                return x;
-            }
-        }
-    }
-
-    /// A number beyond the last layer, as Marsaglia's method for tails has it.
-    fn tail(&mut self, negative: bool) -> f32 {
-        loop {
-            let x = -libm::logf(1.0 - self.uniform()) / LAST;
-            let y = -libm::logf(1.0 - self.uniform());
-            if 2.0 * y >= x * x {
-                return if negative { -(LAST + x) } else { LAST + x };
-            }
-        }
+    fn standard_vectors(&mut self) -> VectorLanes {
+        standard_normals([self.next(), self.next()])
     }
 }
 
-/// The upper half of a word.
-fn upper(word: u64) -> u32 {
-    (word >> 32) as u32
+/// Vectors whose coordinates are of the standard normal distribution, by the transform of Box and Muller (Annals of
+/// Mathematical Statistics 29(2), 1958): a length and a direction from 16 bits each. Both are by series, with errors of
+/// some hundred-thousandths. No length is above 4.86, as one in 130,000 would be.
+fn standard_normals(words: [u64; 2]) -> VectorLanes {
+    let parts = |shift: u32| {
+        #[expect(clippy::cast_possible_truncation, reason = "16 bits")]
+        let part = |word: u64| i32::from(word as u16);
+        let [one, other] = words.map(|word| word >> shift);
+        i32x4::from([one, one >> 32, other, other >> 32].map(part)).round_float()
+    };
+    // Between 0 and 1.
+    let part = (parts(0) + Lanes::HALF) * Lanes::splat(1.0 / 65_536.0);
+    let length = (Lanes::splat(-2.0) * logarithm(part)).sqrt();
+    // From minus to plus a right angle; twice that is the direction.
+    let half_turn =
+        (parts(16) - Lanes::splat(32_768.0)) * Lanes::splat(std::f32::consts::PI / 65_536.0);
+    let square = half_turn * half_turn;
+    let part = |divisor: f32, next: Lanes| Lanes::ONE - square * Lanes::splat(1.0 / divisor) * next;
+    let sin = half_turn * part(6.0, part(20.0, part(42.0, part(72.0, Lanes::ONE))));
+    let cos = part(2.0, part(12.0, part(30.0, part(56.0, Lanes::ONE))));
+    let double = sin + sin;
+    VectorLanes { x: Lanes::ONE - double * sin, y: double * cos } * length
 }
 
-/// A position in a layer from -1 to below 1, by the bits that do not tell the layer.
-fn position(bits: u32) -> f32 {
-    #[expect(clippy::cast_precision_loss, reason = "24 bits fit exactly")]
-    let number = (bits >> 8) as f32;
-    number * (1.0 / 8_388_608.0) - 1.0
-}
+/// Bits of 1.
+const ONE: u32 = 1.0_f32.to_bits();
 
-/// Start of the tail, and area of a layer, of 128 layers.
-const LAST: f32 = 3.442_619_8;
-const AREA: f32 = 9.912_563e-3;
-
-/// Right ends of the layers under the density, from the lowest one, and the density there.
-struct Layers {
-    x: [f32; 129],
-    density: [f32; 129],
-}
-
-static LAYERS: LazyLock<Layers> = LazyLock::new(|| {
-    let mut x = [0.0; 129];
-    x[0] = AREA / density(LAST);
-    x[1] = LAST;
-    for layer in 2..128 {
-        let above = AREA / x[layer - 1] + density(x[layer - 1]);
-        x[layer] = libm::sqrtf(-2.0 * libm::logf(above));
-    }
-    Layers { x, density: x.map(density) }
-});
-
-/// The normal density without its factor: 1 at 0.
-fn density(x: f32) -> f32 {
-    libm::expf(-0.5 * x * x)
+/// Logarithms of numbers above 0, up to 1, too low by up to 1.2e-5: those of 2 by their exponents, and a series of
+/// the hyperbolic tangent's inverse for the rest.
+fn logarithm(numbers: Lanes) -> Lanes {
+    let bits: u32x4 = cast(numbers);
+    let exponents: i32x4 = cast(bits >> 23);
+    let rest: Lanes = cast(bits & u32x4::splat((1 << 23) - 1) | u32x4::splat(ONE));
+    let tanh = (rest - Lanes::ONE) / (rest + Lanes::ONE);
+    let square = tanh * tanh;
+    let [third, fifth, seventh] = [1.0 / 3.0, 1.0 / 5.0, 1.0 / 7.0].map(Lanes::splat);
+    let series = tanh * (Lanes::ONE + square * (third + square * (fifth + square * seventh)));
+    (exponents - i32x4::splat(127)).round_float() * Lanes::LN_2 + series + series
 }
 
 #[cfg(test)]

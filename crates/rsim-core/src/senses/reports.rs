@@ -4,12 +4,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::ball::mouth::beam_is_cut;
 use crate::blocks::{
-    BALL, Lanes, VectorLanes, bits_of, blocks_of, lanes_of_robots, mask_of_bits, place_of, robot,
-    set_bits,
+    BALL, Lanes, VectorLanes, bits_of, blocks_of, lanes_of_robots, mask_of_bits, robot, set_bits,
 };
 use crate::body_parameters::BodyParameters;
 use crate::geometry::motion_block::MotionBlock;
-use crate::math::Vector;
 use crate::models::sensing::Sensing;
 use crate::senses::cameras::ROUNDING;
 use crate::senses::random::{Draws, Purpose};
@@ -17,11 +15,11 @@ use crate::state::State;
 
 /// Motions that the robots of a block measure themselves.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
-struct OwnMotions {
+pub(super) struct OwnMotions {
     /// Velocities forward and to the left, m/s.
-    velocity: VectorLanes,
+    pub(super) velocity: VectorLanes,
     /// rad/s.
-    angular_velocity: Lanes,
+    pub(super) angular_velocity: Lanes,
 }
 
 impl OwnMotions {
@@ -30,6 +28,13 @@ impl OwnMotions {
         let velocity = block.velocity.seen_from(block.heading);
         Self { velocity, angular_velocity: block.angular_velocity }
     }
+}
+
+/// What robots themselves report: whose beams are cut, a bit each, and motions by block; none without odometry.
+#[derive(Clone, Copy)]
+pub(super) struct Reported<'a> {
+    pub(super) cut: u64,
+    pub(super) motions: &'a [OwnMotions],
 }
 
 /// Reports of all robots at the end of a control step.
@@ -98,12 +103,11 @@ impl Reports {
         let mut draws = Draws::of(key, Purpose::Report, self.number);
         self.number += 1;
         let (robots, cut) = (parameters.robots.len(), cut_beams(state, parameters));
-        let missed = draws.which(sensing.beam_misses, robots) & cut;
-        let alarms = draws.which(sensing.beam_false_alarms, robots) & !cut & parameters.mouths;
+        let missed = draws.which_of(sensing.beam_misses, parameters.mouths) & cut;
+        let alarms = draws.which_of(sensing.beam_false_alarms, parameters.mouths) & !cut;
         for (error, block) in self.gyroscope_errors.iter().zip(&state.bodies.blocks) {
             let mut motions = OwnMotions::of(&block.motion);
-            let [x, y] = [(); 2].map(|()| draws.normal_lanes(sensing.odometry_noise));
-            motions.velocity += VectorLanes { x, y };
+            motions.velocity += draws.normal_vectors(Lanes::splat(sensing.odometry_noise));
             motions.angular_velocity += *error + draws.normal_lanes(sensing.gyroscope_noise);
             self.queued.push(motions);
         }
@@ -132,12 +136,9 @@ impl Reports {
         self.queued.drain(..arrived * blocks);
     }
 
-    /// Velocity forward and to the left (m/s) and angular velocity (rad/s) that a robot reports; `None` without
-    /// odometry.
-    pub(super) fn own_motion(&self, index: usize) -> Option<(Vector, f32)> {
-        let (block, lane) = place_of(robot(index));
-        let OwnMotions { velocity, angular_velocity } = self.motions.get(block)?;
-        Some((velocity.get(lane), angular_velocity.as_array()[lane]))
+    /// What has been reported.
+    pub(super) fn known(&self) -> Reported<'_> {
+        Reported { cut: self.cut, motions: &self.motions }
     }
 }
 

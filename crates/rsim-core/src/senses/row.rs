@@ -1,65 +1,71 @@
 //! Rows of what robots know, in the columns of state rows.
 
-use crate::blocks::{BALL, robot, set_bits};
+use crate::blocks::{BALL, LANES, Lanes, lanes_of_robots, mask_of_bits, robot, set_bits};
 use crate::columns::{ABSENT_COLUMN, BALL_COLUMNS, ROBOT_COLUMNS};
 use crate::geometry::motion::Motion;
+use crate::geometry::motion_block::MotionBlock;
 use crate::math::Vector;
 use crate::senses::driven::DrivenRobots;
+use crate::senses::reports::Reported;
 use crate::senses::tracker::Tracker;
 use crate::state::State;
 
-/// Number of a robot's columns for its motion, which come first; the break beam follows.
+/// Number of a robot's columns for its motion, which come first; the break beam follows, then those of touches.
 const MOTION_COLUMNS: usize = 7;
 
 /// Writes what is known. Nobody senses touches, collisions and lines crossed: these columns are as of a match
-/// that has just begun. Which robots are absent is known. `cut` has a bit for each robot whose beam is cut;
-/// `own` gives velocities that robots report, or `None` for those by cameras.
-pub(super) fn write(
-    tracker: &Tracker,
-    cut: u64,
-    own: impl Fn(usize) -> Option<(Vector, f32)>,
-    state: &State,
-    out: &mut [f32],
-) {
-    let absent = |index| {
+/// that has just begun. Which robots are absent is known.
+pub(super) fn write(tracker: &Tracker, reported: Reported<'_>, state: &State, out: &mut [f32]) {
+    let place = |index| {
         let Motion { position, heading, .. } = state.bodies.motion(robot(index));
-        state.is_absent(index).then_some((position, heading))
+        (index, position, heading)
     };
-    write_known(tracker, cut, own, absent, out);
+    write_known(tracker, reported, set_bits(state.absent).map(place), out);
 }
 
-/// The same with position and heading of each robot that is `absent`, by its index.
+/// The same with index, position and heading of each robot that is `absent`.
 pub(super) fn write_known(
     tracker: &Tracker,
-    cut: u64,
-    own: impl Fn(usize) -> Option<(Vector, f32)>,
-    absent: impl Fn(usize) -> Option<(Vector, Vector)>,
+    reported: Reported<'_>,
+    absent: impl Iterator<Item = (usize, Vector, Vector)>,
     out: &mut [f32],
 ) {
     let (ball, robots) = out.split_at_mut(BALL_COLUMNS.len());
+    write_ball(tracker, ball);
+    let mut rows = robots.chunks_exact_mut(ROBOT_COLUMNS.len());
+    for (block, &motion) in tracker.motions().enumerate() {
+        let MotionBlock { position, heading, mut velocity, mut angular_velocity } = motion;
+        if let Some(own) = reported.motions.get(block) {
+            velocity = own.velocity.rotated_by(heading);
+            angular_velocity = own.angular_velocity;
+        }
+        let cut = Lanes::ONE & mask_of_bits(lanes_of_robots(reported.cut, block).into());
+        let poses = Lanes::transpose([position.x, position.y, heading.x, heading.y]);
+        let motions = Lanes::transpose([velocity.x, velocity.y, angular_velocity, cut]);
+        let ball = usize::from(block == 0);
+        for lane in ball..LANES {
+            let Some(columns) = rows.next() else { break };
+            let columns_of_touches = [0.0; LANES];
+            let all = [poses[lane].to_array(), motions[lane].to_array(), columns_of_touches];
+            columns.copy_from_slice(all.as_flattened());
+        }
+    }
+    for (index, position, heading) in absent {
+        let columns = &mut robots[index * ROBOT_COLUMNS.len()..][..ROBOT_COLUMNS.len()];
+        columns.fill(0.0);
+        columns[..4].copy_from_slice(&[position.x, position.y, heading.x, heading.y]);
+        columns[ABSENT_COLUMN] = 1.0;
+    }
+}
+
+fn write_ball(tracker: &Tracker, columns: &mut [f32]) {
     let Motion { position, velocity, .. } = tracker.motion(BALL);
     let ([z, v_z], spin) = tracker.ball();
     let no_touch = -1.0;
-    ball.fill(0.0);
+    columns.fill(0.0);
     let motion = [position.x, position.y, z, velocity.x, velocity.y, v_z, spin.x, spin.y, spin.z];
-    ball[..motion.len()].copy_from_slice(&motion);
-    ball[motion.len()] = no_touch;
-    for (index, columns) in robots.chunks_exact_mut(ROBOT_COLUMNS.len()).enumerate() {
-        if let Some((position, heading)) = absent(index) {
-            columns.fill(0.0);
-            columns[..4].copy_from_slice(&[position.x, position.y, heading.x, heading.y]);
-            columns[ABSENT_COLUMN] = 1.0;
-            continue;
-        }
-        let mut motion = tracker.motion(robot(index));
-        if let Some((Vector { x: forward, y: left }, angular_velocity)) = own(index) {
-            motion.velocity = motion.heading * forward + motion.heading.perp() * left;
-            motion.angular_velocity = angular_velocity;
-        }
-        columns.fill(0.0);
-        write_motion(&motion, columns);
-        columns[MOTION_COLUMNS] = f32::from(u8::from(cut >> index & 1 == 1));
-    }
+    columns[..motion.len()].copy_from_slice(&motion);
+    columns[motion.len()] = no_touch;
 }
 
 /// Writes a motion into the columns of a robot.

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::blocks::{BALL, robot};
 use crate::geometry::motion::Motion;
+use crate::geometry::motion_block::MotionBlock;
 use crate::math::{Vec3, Vector};
 use crate::models::sensing::Sensing;
 use crate::senses::detections::{BallMotion, DetectedBall};
@@ -80,6 +81,11 @@ impl Tracker {
     /// The estimated motion of a body.
     pub(super) fn motion(&self, body: usize) -> Motion {
         self.tracks.motion(body)
+    }
+
+    /// The estimated motions of all bodies, by block.
+    pub(super) fn motions(&self) -> impl Iterator<Item = &MotionBlock> {
+        self.tracks.blocks.iter().map(TrackBlock::motions)
     }
 
     /// Height of the ball's lowest point (m), its vertical velocity (m/s) and its spin (rad/s).

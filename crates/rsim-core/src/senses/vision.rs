@@ -7,10 +7,12 @@ use crate::models::sensing::Sensing;
 use crate::senses::Watched;
 use crate::senses::cameras::{Cameras, ROUNDING};
 use crate::senses::driven::{DrivenRobots, Orders, Tracked};
+use crate::senses::exposed::Film;
 use crate::senses::frames::{CameraFrame, Frames};
 use crate::senses::held::Beams;
 use crate::senses::random::Draws;
 use crate::senses::tracker::Tracker;
+use crate::state::State;
 
 /// Cameras and tracker of both teams, or of one.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -53,25 +55,27 @@ impl Vision {
     }
 
     /// Exposes the frames that are due.
-    pub(super) fn expose(&mut self, now: f64, sensing: &Sensing, watched: Watched<'_>) {
-        self.cameras.expose(now, (sensing, self.key), watched, &mut self.frames);
+    pub(super) fn expose(&mut self, now: f64, state: &State, film: &mut Film) {
+        self.cameras.expose(now, self.key, state, film);
     }
 
     /// Takes in the frames that have arrived, with the break beams that are known to be cut and the commands that
     /// were sent.
-    pub(super) fn receive(
+    pub(super) fn receive<'a>(
         &mut self,
         now: f64,
+        film: &Film,
         sensing: &Sensing,
         beams: Beams<'_>,
-        orders: Orders<'_>,
+        orders: impl Fn() -> Orders<'a>,
     ) {
         self.frames.forget_arrived();
+        self.cameras.develop(film.of(self.key, beams.parameters), sensing, &mut self.frames);
         while let Some(frame) = self.frames.arrive(now + ROUNDING) {
             self.tracker.take(sensing, frame, beams.parameters.ball.radius, Some(beams));
             if let Some(driven) = &mut self.driven {
                 let held = self.tracker.held();
-                driven.take(Tracked { frame, held, beams: Some(beams), sensing }, orders);
+                driven.take(Tracked { frame, held, beams: Some(beams), sensing }, orders());
             }
         }
     }

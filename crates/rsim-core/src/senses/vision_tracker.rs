@@ -13,6 +13,7 @@ use crate::senses::detections::{DetectedBall, DetectedBlock, DetectedRobot};
 use crate::senses::driven::{DrivenRobots, Orders, Tracked};
 use crate::senses::frames::Frame;
 use crate::senses::held::Beams;
+use crate::senses::reports::Reported;
 use crate::senses::row;
 use crate::senses::track::unit;
 use crate::senses::tracker::Tracker;
@@ -206,11 +207,12 @@ impl VisionTracker {
     /// # Panics
     /// If `out` is no row.
     pub fn write_row(&self, robots: u64, out: &mut [f32]) {
-        let absent = |index: usize| {
+        let unseen = (0..self.robots_seen.len()).filter(|index| !self.has_robot(*index));
+        let absent = unseen.map(|index| {
             let Motion { position, heading, .. } = self.tracker.motion(body_of(index));
-            (!self.has_robot(index)).then_some((position, heading))
-        };
-        row::write_known(&self.tracker, 0, |_| None, absent, out);
+            (index, position, heading)
+        });
+        row::write_known(&self.tracker, Reported { cut: 0, motions: &[] }, absent, out);
         if let Some(time) = self.time.filter(|_| self.commanded != 0) {
             let in_sight = self.in_sight(time);
             let known = self.commanded & robots;

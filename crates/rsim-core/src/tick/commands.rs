@@ -4,7 +4,7 @@ use crate::ball::mouth::Kicker;
 use crate::blocks::{lanes_of_robots, mask_of_bits, set_bits};
 use crate::body_parameters::BodyParameters;
 use crate::columns::{OMNI_COLUMNS, OMNI_WHEELS_COLUMNS};
-use crate::drive::BlockCommands;
+use crate::drive::{BlockCommands, BlockWheels, Errors};
 use crate::models::robot::Drive;
 use crate::state::State;
 
@@ -64,6 +64,20 @@ impl StepCommands {
     pub(crate) fn set_kickers(&mut self, kicker_of: impl Fn(usize) -> Kicker) {
         for command in &mut self.handling {
             command.kicker = kicker_of(command.robot);
+        }
+    }
+
+    /// Replaces the commands of wheels by those that they obey with their errors; `errors_of` gives those of a block,
+    /// or `None` if they obey exactly.
+    pub(crate) fn set_wheel_errors<'a>(
+        &mut self,
+        wheels: &[BlockWheels],
+        errors_of: impl Fn(usize) -> Option<Errors<'a>>,
+    ) {
+        for (block, (command, wheels)) in self.wheels.iter_mut().zip(wheels).enumerate() {
+            if let Some(errors) = errors_of(block) {
+                command.obey(wheels, errors);
+            }
         }
     }
 

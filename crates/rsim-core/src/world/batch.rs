@@ -2,6 +2,7 @@
 
 mod placing;
 
+use std::cell::RefCell;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::bodies::BodyBlock;
@@ -9,6 +10,7 @@ use crate::error::{ConfigError, SnapshotError, StepError};
 use crate::forecast::Knowledge;
 use crate::models::config::SimConfig;
 use crate::senses::Senses;
+use crate::senses::exposed::Film;
 use crate::senses::frames::CameraFrame;
 use crate::state::State;
 use crate::threads::Threads;
@@ -28,6 +30,11 @@ type Saved = (State<Vec<BodyBlock>>, Option<Box<Senses>>);
 /// Maximum number of worlds that a thread takes at once; taking them costs next to nothing compared with
 /// stepping them.
 const MAX_PORTION: usize = 16;
+
+thread_local! {
+    /// Films of the worlds that a thread steps at once.
+    static FILMS: RefCell<[Film; MAX_PORTION]> = RefCell::default();
+}
 
 /// Number of rows that the caller's thread writes by itself.
 const SENSED_ALONE: usize = 64;
@@ -113,14 +120,29 @@ impl Batch {
         let size = self.config().row_size();
         let lost = Mutex::new(Vec::new());
         let step = |first: usize, worlds: &mut [World], rows: &mut [f32]| {
-            let each = worlds.iter_mut().zip(rows.chunks_exact_mut(size));
-            for (index, (world, row)) in (first..).zip(each) {
-                if active.is_some_and(|active| !active[index]) {
-                    continue;
+            let is_active = |index: usize| active.is_none_or(|active| active[index]);
+            let end = first + worlds.len();
+            let chosen = || (first..end).filter(|index| is_active(*index));
+            // Each part of a step runs for all worlds, with its instructions in the processor's cache.
+            for index in chosen() {
+                worlds[index - first].begin_step(commands(index));
+            }
+            FILMS.with_borrow_mut(|films| {
+                for index in chosen() {
+                    let film = &mut films[index - first];
+                    film.clear();
+                    worlds[index - first].move_bodies(commands(index), film);
                 }
-                match world.step(commands(index)) {
-                    Ok(()) => world.write_row(row),
-                    Err(_) => lost.lock().unwrap_or_else(PoisonError::into_inner).push(index),
+                for index in chosen() {
+                    worlds[index - first].end_step(&films[index - first]);
+                }
+            });
+            for index in chosen() {
+                let nth = index - first;
+                if worlds[nth].is_lost() {
+                    lost.lock().unwrap_or_else(PoisonError::into_inner).push(index);
+                } else {
+                    worlds[nth].write_row(&mut rows[nth * size..][..size]);
                 }
             }
         };

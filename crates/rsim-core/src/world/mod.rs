@@ -25,6 +25,7 @@ use crate::geometry::free_space::FreeSpace;
 use crate::models::config::SimConfig;
 use crate::models::sensing::Sensing;
 use crate::senses::Senses;
+use crate::senses::exposed::Film;
 use crate::state::crossing::Crossing;
 use crate::state::{Setup, State};
 use crate::tick::{StepCommands, Tick};
@@ -160,9 +161,23 @@ impl World {
     /// # Errors
     /// [`StepError`] if the state became non-finite; [`World::place`] and [`World::restart`] repair it.
     pub fn step(&mut self, commands: &[f32]) -> Result<(), StepError> {
-        debug_assert_eq!(commands.len(), self.config().command_size());
-        if self.state.broken {
-            return Err(StepError { worlds: vec![0] });
+        let mut film = Film::default();
+        self.begin_step(commands);
+        self.move_bodies(commands, &mut film);
+        self.end_step(&film);
+        if self.is_lost() { Err(StepError { worlds: vec![0] }) } else { Ok(()) }
+    }
+
+    /// Whether the state is non-finite: only a placement repairs it.
+    fn is_lost(&self) -> bool {
+        self.state.broken
+    }
+
+    /// Advances the bodies by the ticks of a control step, and exposes a film to them where there are cameras. A world
+    /// that is lost stays as it is.
+    fn move_bodies(&mut self, commands: &[f32], film: &mut Film) {
+        if self.is_lost() {
+            return;
         }
         self.state.crossing = Crossing::default();
         self.state.touches.start_step();
@@ -171,15 +186,12 @@ impl World {
         let state = &mut self.state;
         let own_parameters = state.own_parameters.take();
         let parameters = own_parameters.as_deref().unwrap_or(&setup.parameters);
-        let stepped = MEMORY.with_borrow_mut(|memory| match &mut self.senses {
+        let moved = MEMORY.with_borrow_mut(|memory| match &mut self.senses {
             None => advance(memory, setup, parameters, state, commands),
-            Some(senses) => advance_sensed(memory, setup, parameters, state, commands, senses),
+            Some(senses) => advance_sensed(memory, setup, parameters, state, (senses, film)),
         });
         state.own_parameters = own_parameters;
-        stepped.and_then(|()| self.state.check_finite()).map_err(|NonFinite| {
-            self.state.broken = true;
-            StepError { worlds: vec![0] }
-        })
+        self.state.broken = moved.and_then(|()| self.state.check_finite()).is_err();
     }
 
     /// Makes every tick use the contact solver, also those without contacts. This is slower, and the

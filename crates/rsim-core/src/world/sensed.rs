@@ -6,6 +6,7 @@ use crate::body_parameters::BodyParameters;
 use crate::engine::NonFinite;
 use crate::forecast::Knowledge;
 use crate::models::sensing::Sensing;
+use crate::senses::exposed::Film;
 use crate::senses::frames::CameraFrame;
 use crate::senses::{Senses, Watched};
 use crate::state::{Setup, State};
@@ -52,34 +53,47 @@ impl World {
         self.senses.as_ref().map_or_else(Vec::new, |senses| senses.camera_frames())
     }
 
+    /// Begins a control step: commands are sent to the robots.
+    pub(super) fn begin_step(&mut self, commands: &[f32]) {
+        let Some(senses) = self.senses.as_mut().filter(|_| !self.state.broken) else { return };
+        senses.send(commands, &self.shared.setup.config);
+    }
+
+    /// Ends a control step with the exposures of its ticks: robots report, and what has arrived is known.
+    pub(super) fn end_step(&mut self, film: &Film) {
+        let Some(senses) = self.senses.as_mut().filter(|_| !self.state.broken) else { return };
+        let setup = &self.shared.setup;
+        let parameters = self.state.own_parameters.as_deref().unwrap_or(&setup.parameters);
+        let watched = Watched { config: &setup.config, parameters, state: &self.state };
+        senses.end_step(film, watched, &setup.parameters);
+    }
+
     fn watched(&self) -> Watched<'_> {
         let config = &self.shared.setup.config;
         Watched { config, parameters: self.parameters(), state: &self.state }
     }
 }
 
-/// Advances a match by the ticks of a control step, between commands and cameras.
+/// Advances a match by the ticks of a control step, between commands that were sent and cameras.
 pub(super) fn advance_sensed(
     memory: &mut WorkingMemory,
     setup: &Setup,
     parameters: &BodyParameters,
     state: &mut State,
-    commands: &[f32],
-    senses: &mut Senses,
+    (senses, film): (&mut Senses, &mut Film),
 ) -> Result<(), NonFinite> {
     let WorkingMemory { engine, commands: read } = memory;
     let (config, columns) = (&setup.config, setup.command_columns.max(1));
-    senses.send(commands, config);
     for nth in 0..config.ticks_per_step() {
         let changed = senses.receive(Watched { config, parameters, state });
         // The memory is shared by all worlds of a thread.
         if changed || nth == 0 {
             read.read(state, parameters, senses.commands(), columns);
             read.set_kickers(|robot| senses.kicker(robot));
+            read.set_wheel_errors(&parameters.wheels, |block| senses.wheel_errors(block));
         }
         Tick { setup, parameters, commands: read }.advance(state, engine)?;
-        senses.watch(Watched { config, parameters, state });
+        senses.watch(Watched { config, parameters, state }, film);
     }
-    senses.end_step(Watched { config, parameters, state }, &setup.parameters);
     Ok(())
 }
