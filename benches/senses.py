@@ -128,7 +128,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--worlds", type=int, default=64, help="matches at once")
     parser.add_argument("--seeds", type=int, default=8, help="seeds of matches and actions")
-    parser.add_argument("--rounds", type=int, default=20, help="turns of each variant with a seed")
+    parser.add_argument("--rounds", type=int, default=40, help="turns of each variant with a seed")
     parser.add_argument("--steps", type=int, default=25, help="control steps in a turn")
     given = parser.parse_args(arguments)
     numbers = (given.worlds, given.seeds, given.rounds, given.steps)

@@ -135,7 +135,10 @@ class SimulatedSenses(Senses):
 
     @cached_property
     def _known(self) -> tuple[tuple[tuple[str | None, ...], Frame], ...]:
-        """Arguments `known` of `SensingStepper.sense`, () for its default, and frames for them."""
+        """Arguments `known` of `SensingStepper.sense`, () for its default, and frames for them.
+
+        Frames are written and never replaced, so they stay those of the first call.
+        """
         if self.observing is None:
             return (((), self.frame),)
         if self.teams is None:

@@ -59,7 +59,8 @@ impl Threads {
         self.count
     }
 
-    /// Number of rows in a portion, `min` to `max`, if `rows` rows are shared.
+    /// Number of rows in a portion, `min` to `max`, if `rows` rows are shared: `max` for one thread, which leaves
+    /// nothing to others.
     pub fn portion(&self, rows: usize, min: usize, max: usize) -> usize {
         if self.count == 1 {
             return max;

@@ -11,7 +11,7 @@ pub(super) use tipping::TippingState;
 use serde::{Deserialize, Serialize};
 use tipping::Tipping;
 
-use super::{Driven, Errors, MAX_COLUMNS, OwnMotion, WheelEffect};
+use super::{Driven, MAX_COLUMNS, OwnMotion, WheelEffect, WheelErrors};
 use crate::blocks::{LANES, Lanes, VectorLanes, lanes_of, larger, limited, smaller};
 use crate::models::robot::DifferentialDrive;
 
@@ -117,7 +117,7 @@ impl Wheels {
     pub(super) fn obeyed(
         &self,
         [left, right, others @ ..]: [Lanes; MAX_COLUMNS],
-        errors: Errors<'_>,
+        errors: WheelErrors<'_>,
     ) -> [Lanes; MAX_COLUMNS] {
         let speeds = [left, right].map(|speed| limited(speed, self.max_wheel_speed));
         let [left, right] = errors.turn(speeds, self.wheel_radius, self.max_wheel_speed);

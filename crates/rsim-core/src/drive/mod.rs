@@ -5,6 +5,7 @@
 
 mod differential;
 mod omni;
+
 pub(crate) use omni::WheelMap;
 
 use differential::TippingState;
@@ -44,7 +45,7 @@ struct Mounted<W> {
 
 /// Errors of the wheels of a block.
 #[derive(Clone, Copy)]
-pub(crate) struct Errors<'a> {
+pub(crate) struct WheelErrors<'a> {
     /// Factors on the speeds of the wheels.
     pub(crate) gains: &'a [Lanes; MAX_WHEELS],
     /// Speed below which a wheel stands, m/s at the rim.
@@ -53,12 +54,13 @@ pub(crate) struct Errors<'a> {
     pub(crate) battery: f32,
 }
 
-impl Errors<'_> {
+impl WheelErrors<'_> {
     /// Speeds of wheels that are to turn at `speeds` and turn at up to `most` with a full battery, rad/s. A robot whose
     /// fastest wheel is limited goes the same way more slowly.
     fn turn<const N: usize>(self, speeds: [Lanes; N], radius: Lanes, most: Lanes) -> [Lanes; N] {
         let dead_zone = Lanes::splat(self.dead_zone) / radius;
-        let fastest = speeds.iter().fold(Lanes::ZERO, |most, speed| larger(most, speed.abs()));
+        let fastest =
+            speeds.iter().fold(Lanes::ZERO, |fastest, speed| larger(fastest, speed.abs()));
         // At rest the ratio is infinite.
         let slower = smaller(Lanes::splat(self.battery) * most / fastest, Lanes::ONE);
         std::array::from_fn(|wheel| {
@@ -152,7 +154,7 @@ impl BlockCommands {
     }
 
     /// Replaces the commands by those that wheels with errors obey.
-    pub(crate) fn obey(&mut self, wheels: &BlockWheels, errors: Errors<'_>) {
+    pub(crate) fn obey(&mut self, wheels: &BlockWheels, errors: WheelErrors<'_>) {
         let BlockWheels { differential, omni, each_omni, .. } = wheels;
         if let Some(Mounted { mask, wheels }) = differential {
             self.replace(*mask, wheels.obeyed(self.0, errors));

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Driven, Errors, MAX_COLUMNS, OwnMotion, WheelEffect};
+use super::{Driven, MAX_COLUMNS, OwnMotion, WheelEffect, WheelErrors};
 use crate::blocks::{LANES, Lanes, VectorLanes, lanes_of, larger, limited, smaller};
 use crate::columns::MAX_COMMAND;
 use crate::math::Rotation;
@@ -79,9 +79,10 @@ impl Wheels {
     pub(super) fn obeyed_velocity(
         &self,
         [x, y, turn, other]: [Lanes; MAX_COLUMNS],
-        errors: Errors<'_>,
+        errors: WheelErrors<'_>,
     ) -> [Lanes; MAX_COLUMNS] {
         let battery = Lanes::splat(errors.battery);
+        let [x, y] = [x, y].map(|speed| limited(speed, Lanes::splat(MAX_COMMAND)));
         let velocity = VectorLanes { x, y }.of_length_at_most(battery * self.max_speed);
         let turn = limited(turn, battery * self.max_angular_velocity);
         let speeds = self.wheel_speeds(velocity, turn);
@@ -94,7 +95,7 @@ impl Wheels {
     pub(super) fn obeyed_wheel_speeds(
         &self,
         speeds: [Lanes; MAX_COLUMNS],
-        errors: Errors<'_>,
+        errors: WheelErrors<'_>,
     ) -> [Lanes; MAX_COLUMNS] {
         errors.turn(speeds, self.wheel_radius, self.max_wheel_speed)
     }
@@ -205,7 +206,6 @@ fn compensated_load(load: VectorLanes, error: VectorLanes, change: VectorLanes) 
 }
 
 /// Kinematics of one robot: from the velocity of its body to the speeds of its wheels.
-#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct WheelMap {
     from_body: [[f32; 3]; 4],
 }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::ball::mouth::Kicker;
 use crate::blocks::{Lanes, blocks_of, larger, set_bits};
 use crate::body_parameters::BodyParameters;
-use crate::drive::{Errors, MAX_WHEELS};
+use crate::drive::{MAX_WHEELS, WheelErrors};
 use crate::geometry::motion::rotated;
 use crate::math::Vector;
 use crate::models::sensing::Sensing;
@@ -88,10 +88,10 @@ impl Actuators {
     }
 
     /// Errors of the wheels of a block; `None` if they obey exactly.
-    pub(super) fn wheel_errors(&self, block: usize, sensing: &Sensing) -> Option<Errors<'_>> {
+    pub(super) fn wheel_errors(&self, block: usize, sensing: &Sensing) -> Option<WheelErrors<'_>> {
         let (dead_zone, battery) = (sensing.wheel_dead_zone, self.battery);
         let are_exact = sensing.wheel_error == 0.0 && dead_zone == 0.0 && battery >= 1.0;
-        (!are_exact).then(|| Errors { gains: &self.gains[block], dead_zone, battery })
+        (!are_exact).then(|| WheelErrors { gains: &self.gains[block], dead_zone, battery })
     }
 }
 

@@ -11,7 +11,7 @@ use crate::models::config::SimConfig;
 use crate::models::sensing::Sensing;
 use crate::senses::Watched;
 use crate::senses::detections::{BallMotion, DetectedBall, DetectedBlock, DetectedRobot};
-use crate::senses::exposed::{Exposed, Film, Instant};
+use crate::senses::exposed::{Exposed, ExposureId, Film};
 use crate::senses::frames::Frames;
 use crate::senses::random::{Draws, Purpose};
 use crate::senses::visibility::{Lens, Obstacle};
@@ -104,7 +104,7 @@ impl Cameras {
         while self.next <= now + ROUNDING {
             #[expect(clippy::cast_possible_truncation, reason = "less than a tick")]
             let age = (now - self.next).max(0.0) as f32;
-            film.expose(Instant { time: self.next, number: self.exposures, key }, age, state);
+            film.expose(ExposureId { time: self.next, number: self.exposures, key }, age, state);
             self.exposures += 1;
             #[expect(clippy::cast_precision_loss, reason = "no match has 2^52 frames")]
             let exposures = self.exposures as f64;
@@ -120,7 +120,7 @@ impl Cameras {
         frames: &mut Frames,
     ) {
         for exposed in exposures {
-            let Instant { time, number, key } = exposed.instant();
+            let ExposureId { time, number, key } = exposed.id();
             let mut draws = Draws::of(key, Purpose::Frame, number);
             if draws.happens(sensing.frame_loss) {
                 continue;
@@ -147,7 +147,7 @@ impl Cameras {
         frames: &mut Frames,
     ) {
         let mut film = Film::default();
-        film.expose(Instant { time: now, number: 0, key: 0 }, 0.0, watched.state);
+        film.expose(ExposureId { time: now, number: 0, key: 0 }, 0.0, watched.state);
         let exposed = film.of(0, watched.parameters).next().expect("an exposure");
         let nearest = |position: Vector| {
             let all = self.all.iter();

@@ -20,9 +20,9 @@ pub(crate) struct Film {
     motions: Vec<MotionBlock>,
 }
 
-/// When an exposure is made, and whose.
+/// Identity of an exposure: its cameras, and its place in time.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Instant {
+pub(super) struct ExposureId {
     /// Time since the senses began, s.
     pub(super) time: f64,
     /// Number of earlier exposures of the same cameras.
@@ -31,10 +31,10 @@ pub(super) struct Instant {
     pub(super) key: u64,
 }
 
-/// What an exposure records beside the motions.
+/// Record of an exposure beside the motions.
 #[derive(Debug, Clone, Copy)]
 struct Exposure {
-    instant: Instant,
+    id: ExposureId,
     /// Height of the ball's lowest point (m), its vertical velocity (m/s) and its spin (rad/s).
     height: f32,
     v_z: f32,
@@ -44,11 +44,11 @@ struct Exposure {
 }
 
 impl Film {
-    /// Records the state `age` (s) before it at an instant.
-    pub(super) fn expose(&mut self, instant: Instant, age: f32, state: &State) {
+    /// Records the state `age` (s) ago.
+    pub(super) fn expose(&mut self, id: ExposureId, age: f32, state: &State) {
         let ball = &state.ball;
         self.exposures.push(Exposure {
-            instant,
+            id,
             height: (ball.z - ball.v_z * age).max(0.0),
             v_z: ball.v_z,
             spin: ball.spin,
@@ -69,9 +69,8 @@ impl Film {
         key: u64,
         parameters: &'a BodyParameters,
     ) -> impl Iterator<Item = Exposed<'a>> {
-        let blocks = parameters.inertia.len().max(1);
-        let each = self.exposures.iter().zip(self.motions.chunks_exact(blocks));
-        let own = each.filter(move |(exposure, _)| exposure.instant.key == key);
+        let each = self.exposures.iter().zip(self.motions.chunks_exact(parameters.inertia.len()));
+        let own = each.filter(move |(exposure, _)| exposure.id.key == key);
         own.map(move |(&exposure, motions)| Exposed { exposure, motions, parameters })
     }
 
@@ -91,9 +90,9 @@ pub(super) struct Exposed<'a> {
 }
 
 impl Exposed<'_> {
-    /// When the exposure was made.
-    pub(super) fn instant(&self) -> Instant {
-        self.exposure.instant
+    /// Its cameras, and its place in time.
+    pub(super) fn id(&self) -> ExposureId {
+        self.exposure.id
     }
 
     /// A body's motion.

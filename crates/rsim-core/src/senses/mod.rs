@@ -31,7 +31,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::ball::mouth::Kicker;
 use crate::body_parameters::BodyParameters;
-use crate::drive::Errors;
+use crate::drive::WheelErrors;
 use crate::forecast::commands::CommandLog;
 use crate::forecast::{Knowledge, MAX_FORECAST};
 use crate::models::config::SimConfig;
@@ -160,7 +160,7 @@ impl Senses {
     }
 
     /// Errors of the wheels of a block; `None` if they obey exactly.
-    pub(crate) fn wheel_errors(&self, block: usize) -> Option<Errors<'_>> {
+    pub(crate) fn wheel_errors(&self, block: usize) -> Option<WheelErrors<'_>> {
         self.actuators.wheel_errors(block, &self.sensing)
     }
 
@@ -181,7 +181,7 @@ impl Senses {
         self.reports.send(now, (&self.sensing, self.key), state, parameters);
         self.reports.receive(now);
         let beams = Beams { cut: self.reports.cut, parameters };
-        let expected = config.sensing.as_ref().unwrap_or(&self.sensing);
+        let expected = expected(config, &self.sensing);
         let orders = || Orders::new(&self.sent, config, expected, models);
         for vision in &mut self.visions {
             vision.receive(now, film, &self.sensing, beams, orders);
@@ -231,7 +231,7 @@ impl Senses {
     /// Numbers of the senses as teams take them to be: those of the configuration, also where the match has
     /// others of its own.
     pub(crate) fn expected<'a>(&'a self, config: &'a SimConfig) -> &'a Sensing {
-        config.sensing.as_ref().unwrap_or(&self.sensing)
+        expected(config, &self.sensing)
     }
 
     /// Commands that were sent, for forecasts.
@@ -256,6 +256,11 @@ impl Senses {
         let ticks = self.ticks as f64;
         ticks * f64::from(config.tick)
     }
+}
+
+/// Numbers of the senses as teams take them to be, of a match with its `own`.
+fn expected<'a>(config: &'a SimConfig, own: &'a Sensing) -> &'a Sensing {
+    config.sensing.as_ref().unwrap_or(own)
 }
 
 /// Ticks after which a robot that hears nothing stops; `None` for never. `tick` is the length of one, s.

@@ -157,7 +157,7 @@ fn standard_normals(words: [u64; 2]) -> VectorLanes {
 /// Bits of 1.
 const ONE: u32 = 1.0_f32.to_bits();
 
-/// Logarithms of numbers above 0, up to 1, too low by up to 1.2e-5: those of 2 by their exponents, and a series of
+/// Logarithms of numbers above 0, up to 1, to 1.3e-5: those of 2 by their exponents, and a series of
 /// the hyperbolic tangent's inverse for the rest.
 fn logarithm(numbers: Lanes) -> Lanes {
     let bits: u32x4 = cast(numbers);
@@ -173,16 +173,21 @@ fn logarithm(numbers: Lanes) -> Lanes {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::blocks::LANES;
 
     #[test]
     fn normal_numbers_have_the_moments_and_tails_of_the_distribution() {
         let mut draws = Draws::of(1, Purpose::Frame, 0);
         let count = 400_000;
-        let mut numbers: Vec<f64> = (0..count / 2).map(|_| draws.normal(1.0).into()).collect();
+        let mut numbers: Vec<f64> = (0..count / 4).map(|_| draws.normal(1.0).into()).collect();
         numbers.extend((0..count / 8).flat_map(|_| draws.normals(1.0).to_array().map(f64::from)));
         numbers.extend(
             (0..count / 16).flat_map(|_| draws.normal_lanes(1.0).to_array().map(f64::from)),
         );
+        numbers.extend((0..count / 32).flat_map(|_| {
+            let VectorLanes { x, y } = draws.normal_vectors(Lanes::ONE);
+            [x.to_array(), y.to_array()].concat().into_iter().map(f64::from)
+        }));
         let mean_of =
             |f: &dyn Fn(f64) -> f64| numbers.iter().map(|&x| f(x)).sum::<f64>() / f64::from(count);
         assert!(mean_of(&|x| x).abs() < 0.005);
@@ -207,6 +212,29 @@ mod tests {
         let both = f64::from(u32::try_from(both).expect("few"));
         assert!((both - expected).abs() < 5.0 * expected.sqrt(), "{both} of {expected}");
         assert_eq!(draws.normals(0.0), Vector::ZERO);
+    }
+
+    #[test]
+    fn numbers_of_a_block_are_independent() {
+        let mut draws = Draws::of(6, Purpose::Frame, 0);
+        let count = 50_000_u16;
+        let mut products = [[0.0; LANES]; 4];
+        for _ in 0..count {
+            let vectors = draws.normal_vectors(Lanes::ONE);
+            // The second is what the first left over.
+            let [one, other] = [(); 2].map(|()| draws.normal_lanes(1.0));
+            let next = vectors.x.to_array().map(|x| x * vectors.x.as_array()[0]);
+            let all = [vectors.x * vectors.y, one * other, one * vectors.x, Lanes::from(next)];
+            for (sums, product) in products.iter_mut().zip(all) {
+                for (sum, product) in sums.iter_mut().zip(product.to_array()) {
+                    *sum += f64::from(product) / f64::from(count);
+                }
+            }
+        }
+        let bound = 5.0 / f64::from(count).sqrt();
+        assert!((products[3][0] - 1.0).abs() < 2.0 * bound, "{products:?}");
+        products[3][0] = 0.0;
+        assert!(products.as_flattened().iter().all(|mean| mean.abs() < bound), "{products:?}");
     }
 
     #[test]

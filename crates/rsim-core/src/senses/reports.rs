@@ -30,7 +30,7 @@ impl OwnMotions {
     }
 }
 
-/// What robots themselves report: whose beams are cut, a bit each, and motions by block; none without odometry.
+/// Reports of robots that have arrived: whose beams are cut, a bit each, and motions by block; none without odometry.
 #[derive(Clone, Copy)]
 pub(super) struct Reported<'a> {
     pub(super) cut: u64,
@@ -136,7 +136,7 @@ impl Reports {
         self.queued.drain(..arrived * blocks);
     }
 
-    /// What has been reported.
+    /// Reports that have arrived.
     pub(super) fn known(&self) -> Reported<'_> {
         Reported { cut: self.cut, motions: &self.motions }
     }

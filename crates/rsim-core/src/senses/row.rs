@@ -10,7 +10,7 @@ use crate::senses::reports::Reported;
 use crate::senses::tracker::Tracker;
 use crate::state::State;
 
-/// Number of a robot's columns for its motion, which come first; the break beam follows, then those of touches.
+/// Number of a robot's columns for its motion, which come first; the break beam follows.
 const MOTION_COLUMNS: usize = 7;
 
 /// Writes what is known. Nobody senses touches, collisions and lines crossed: these columns are as of a match
@@ -45,9 +45,9 @@ pub(super) fn write_known(
         let ball = usize::from(block == 0);
         for lane in ball..LANES {
             let Some(columns) = rows.next() else { break };
-            let columns_of_touches = [0.0; LANES];
-            let all = [poses[lane].to_array(), motions[lane].to_array(), columns_of_touches];
-            columns.copy_from_slice(all.as_flattened());
+            columns.fill(0.0);
+            columns[..LANES].copy_from_slice(poses[lane].as_array());
+            columns[LANES..2 * LANES].copy_from_slice(motions[lane].as_array());
         }
     }
     for (index, position, heading) in absent {

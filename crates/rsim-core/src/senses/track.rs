@@ -191,8 +191,12 @@ impl TrackBlock {
         let Gains { alpha, beta, gate } = filter.gains(self.headings);
         let pushed = (difference * difference).simd_gt(gate);
         let beta = pushed.bitselect(Lanes::splat(PUSH_PART), beta);
-        let turned = turned(motion.heading, difference * alpha);
-        motion.heading = of_length_one(detected).where_else(pushed, turned);
+        motion.heading = turned(motion.heading, difference * alpha);
+        if pushed.any() {
+            // The length of a detected heading may be far from 1.
+            let detected = detected * (Lanes::ONE / detected.length_squared().sqrt());
+            motion.heading = detected.where_else(pushed, motion.heading);
+        }
         motion.angular_velocity += difference * (beta * rate);
         self.headings = counted(self.headings, read, pushed);
         self.refused = (self.refused + (Lanes::ONE & misread)) & !read;
@@ -242,7 +246,8 @@ pub(super) fn unit(heading: Vector) -> Vector {
 /// Angles up to which the series of [`turned`] hold, rad.
 const SERIES: f32 = 1.6;
 
-/// Headings turned by angles, rad. Cosine and sine are series, to a few ten-thousandths; the length stays 1.
+/// Headings turned by angles, rad. Cosine and sine are series, to a few ten-thousandths; the length stays 1 by a
+/// step of Newton's method.
 fn turned(heading: VectorLanes, angle: Lanes) -> VectorLanes {
     let square = angle * angle;
     let part = |divisor: f32, next: Lanes| Lanes::ONE - square * Lanes::splat(1.0 / divisor) * next;
@@ -254,13 +259,9 @@ fn turned(heading: VectorLanes, angle: Lanes) -> VectorLanes {
         let (sin, cos) = libm::sincosf(angle.as_array()[lane]);
         turn.set(lane, Vector::new(cos, sin));
     }
-    of_length_one(heading.rotated_by(turn))
-}
-
-/// Headings whose length is near 1 with a length nearer to it, by a step of Newton's method.
-fn of_length_one(heading: VectorLanes) -> VectorLanes {
+    let turned = heading.rotated_by(turn);
     let [half, more] = [0.5, 1.5].map(Lanes::splat);
-    heading * (more - half * heading.length_squared())
+    turned * (more - half * turned.length_squared())
 }
 
 #[cfg(test)]

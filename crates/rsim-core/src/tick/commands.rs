@@ -4,7 +4,7 @@ use crate::ball::mouth::Kicker;
 use crate::blocks::{lanes_of_robots, mask_of_bits, set_bits};
 use crate::body_parameters::BodyParameters;
 use crate::columns::{OMNI_COLUMNS, OMNI_WHEELS_COLUMNS};
-use crate::drive::{BlockCommands, BlockWheels, Errors};
+use crate::drive::{BlockCommands, BlockWheels, WheelErrors};
 use crate::models::robot::Drive;
 use crate::state::State;
 
@@ -72,7 +72,7 @@ impl StepCommands {
     pub(crate) fn set_wheel_errors<'a>(
         &mut self,
         wheels: &[BlockWheels],
-        errors_of: impl Fn(usize) -> Option<Errors<'a>>,
+        errors_of: impl Fn(usize) -> Option<WheelErrors<'a>>,
     ) {
         for (block, (command, wheels)) in self.wheels.iter_mut().zip(wheels).enumerate() {
             if let Some(errors) = errors_of(block) {

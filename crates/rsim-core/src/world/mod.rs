@@ -161,6 +161,7 @@ impl World {
     /// # Errors
     /// [`StepError`] if the state became non-finite; [`World::place`] and [`World::restart`] repair it.
     pub fn step(&mut self, commands: &[f32]) -> Result<(), StepError> {
+        debug_assert_eq!(commands.len(), self.config().command_size());
         let mut film = Film::default();
         self.begin_step(commands);
         self.move_bodies(commands, &mut film);
