@@ -112,6 +112,14 @@ pub(crate) fn limited(number: Lanes, limit: Lanes) -> Lanes {
     smaller(larger(number, -limit), limit)
 }
 
+/// 1 - x / d (1 - x / e (1 - ...)) with the `divisors` d, e, ...: what the series of sine and cosine are made of.
+pub(crate) fn alternating_series<const N: usize>(x: Lanes, divisors: [f32; N]) -> Lanes {
+    divisors
+        .iter()
+        .rev()
+        .fold(Lanes::ONE, |next, divisor| Lanes::ONE - x * Lanes::splat(1.0 / divisor) * next)
+}
+
 /// A vector of each body of a block.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct VectorLanes {

@@ -12,7 +12,7 @@ use differential::TippingState;
 use serde::{Deserialize, Serialize};
 
 use crate::blocks::{
-    LANES, Lanes, VectorLanes, blocks_of, larger, mask_of, mask_of_bits, place_of, robot, smaller,
+    LANES, Lanes, VectorLanes, blocks_of, larger, mask_of, mask_of_bits, place_of, robot,
 };
 use crate::geometry::motion_block::MotionBlock;
 use crate::math::Vector;
@@ -59,15 +59,18 @@ impl WheelErrors<'_> {
     /// fastest wheel is limited goes the same way more slowly.
     fn turn<const N: usize>(self, speeds: [Lanes; N], radius: Lanes, most: Lanes) -> [Lanes; N] {
         let dead_zone = Lanes::splat(self.dead_zone) / radius;
-        let fastest =
-            speeds.iter().fold(Lanes::ZERO, |fastest, speed| larger(fastest, speed.abs()));
-        // At rest the ratio is infinite.
-        let slower = smaller(Lanes::splat(self.battery) * most / fastest, Lanes::ONE);
+        let slower = saturation_factor(&speeds, Lanes::splat(self.battery) * most);
         std::array::from_fn(|wheel| {
             let stands = speeds[wheel].abs().simd_lt(dead_zone);
             (speeds[wheel] * (self.gains[wheel] * slower)) & !stands
         })
     }
+}
+
+/// Factor on all speeds of a robot's wheels that lets none turn faster than `most`, rad/s.
+fn saturation_factor(speeds: &[Lanes], most: Lanes) -> Lanes {
+    let fastest = speeds.iter().fold(Lanes::ZERO, |fastest, speed| larger(fastest, speed.abs()));
+    fastest.simd_gt(most).bitselect(most / fastest, Lanes::ONE)
 }
 
 /// A robot's drive of one kind, with the mass (kg) and moment of inertia (kg m²) that it moves.

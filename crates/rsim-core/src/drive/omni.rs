@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Driven, MAX_COLUMNS, OwnMotion, WheelEffect, WheelErrors};
+use super::{Driven, MAX_COLUMNS, OwnMotion, WheelEffect, WheelErrors, saturation_factor};
 use crate::blocks::{LANES, Lanes, VectorLanes, lanes_of, larger, limited, smaller};
 use crate::columns::MAX_COMMAND;
 use crate::math::Rotation;
@@ -121,7 +121,7 @@ impl Wheels {
 
     /// Target of commands of four wheel speeds, rad/s.
     pub(super) fn target_of_wheel_speeds(&self, command: &[Lanes; MAX_COLUMNS]) -> TargetVelocity {
-        let factor = self.saturation_factor(&command.map(Lanes::abs));
+        let factor = saturation_factor(command, self.max_wheel_speed);
         let speeds = command.map(|speed| speed * factor);
         let [x, y, angular_velocity] = self.body_velocity(&speeds);
         self.saturated(VectorLanes { x, y }, angular_velocity)
@@ -132,16 +132,8 @@ impl Wheels {
         let velocity = velocity.of_length_at_most(self.max_speed);
         let angular_velocity = limited(angular_velocity, self.max_angular_velocity);
         let speeds = self.wheel_speeds(velocity, angular_velocity);
-        let factor = self.saturation_factor(&speeds.map(Lanes::abs));
+        let factor = saturation_factor(&speeds, self.max_wheel_speed);
         TargetVelocity { velocity: velocity * factor, angular_velocity: angular_velocity * factor }
-    }
-
-    /// Factor on all wheel speeds if the wheels would turn at `speeds`, rad/s, none negative.
-    fn saturation_factor(&self, speeds: &[Lanes; 4]) -> Lanes {
-        let [one, two, three, four] = *speeds;
-        let fastest = larger(larger(one, two), larger(three, four));
-        let is_too_fast = fastest.simd_gt(self.max_wheel_speed);
-        is_too_fast.bitselect(self.max_wheel_speed / fastest, Lanes::ONE)
     }
 
     /// Effect of the wheels in a tick.

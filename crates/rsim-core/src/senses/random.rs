@@ -3,7 +3,7 @@
 use wide::bytemuck::cast;
 use wide::{i32x4, u32x4};
 
-use crate::blocks::{Lanes, VectorLanes};
+use crate::blocks::{Lanes, VectorLanes, alternating_series};
 use crate::math::Vector;
 use crate::streams::{STRIDE, mixed, unit};
 
@@ -134,22 +134,21 @@ impl Draws {
 /// Mathematical Statistics 29(2), 1958): a length and a direction from 16 bits each. Both are by series, with errors of
 /// some hundred-thousandths. No length is above 4.86, as one in 130,000 would be.
 fn standard_normals(words: [u64; 2]) -> VectorLanes {
-    let parts = |shift: u32| {
+    let whole = |shift: u32| {
         #[expect(clippy::cast_possible_truncation, reason = "16 bits")]
-        let part = |word: u64| i32::from(word as u16);
+        let lowest = |word: u64| i32::from(word as u16);
         let [one, other] = words.map(|word| word >> shift);
-        i32x4::from([one, one >> 32, other, other >> 32].map(part)).round_float()
+        i32x4::from([one, one >> 32, other, other >> 32].map(lowest)).round_float()
     };
     // Between 0 and 1.
-    let part = (parts(0) + Lanes::HALF) * Lanes::splat(1.0 / 65_536.0);
-    let length = (Lanes::splat(-2.0) * logarithm(part)).sqrt();
+    let uniform = (whole(0) + Lanes::HALF) * Lanes::splat(1.0 / 65_536.0);
+    let length = (Lanes::splat(-2.0) * logarithm(uniform)).sqrt();
     // From minus to plus a right angle; twice that is the direction.
     let half_turn =
-        (parts(16) - Lanes::splat(32_768.0)) * Lanes::splat(std::f32::consts::PI / 65_536.0);
+        (whole(16) - Lanes::splat(32_768.0)) * Lanes::splat(std::f32::consts::PI / 65_536.0);
     let square = half_turn * half_turn;
-    let part = |divisor: f32, next: Lanes| Lanes::ONE - square * Lanes::splat(1.0 / divisor) * next;
-    let sin = half_turn * part(6.0, part(20.0, part(42.0, part(72.0, Lanes::ONE))));
-    let cos = part(2.0, part(12.0, part(30.0, part(56.0, Lanes::ONE))));
+    let sin = half_turn * alternating_series(square, [6.0, 20.0, 42.0, 72.0]);
+    let cos = alternating_series(square, [2.0, 12.0, 30.0, 56.0]);
     let double = sin + sin;
     VectorLanes { x: Lanes::ONE - double * sin, y: double * cos } * length
 }

@@ -2,7 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::blocks::{LANES, Lanes, VectorLanes, mask_of_bits, set_bits, smaller};
+use crate::blocks::{
+    LANES, Lanes, VectorLanes, alternating_series, mask_of_bits, set_bits, smaller,
+};
 use crate::geometry::motion::Motion;
 use crate::geometry::motion_block::MotionBlock;
 use crate::math::Vector;
@@ -250,10 +252,9 @@ const SERIES: f32 = 1.6;
 /// step of Newton's method.
 fn turned(heading: VectorLanes, angle: Lanes) -> VectorLanes {
     let square = angle * angle;
-    let part = |divisor: f32, next: Lanes| Lanes::ONE - square * Lanes::splat(1.0 / divisor) * next;
     let mut turn = VectorLanes {
-        x: part(2.0, part(12.0, part(30.0, part(56.0, Lanes::ONE)))),
-        y: angle * part(6.0, part(20.0, part(42.0, Lanes::ONE))),
+        x: alternating_series(square, [2.0, 12.0, 30.0, 56.0]),
+        y: angle * alternating_series(square, [6.0, 20.0, 42.0]),
     };
     for lane in set_bits(square.simd_gt(Lanes::splat(SERIES * SERIES)).to_bitmask().into()) {
         let (sin, cos) = libm::sincosf(angle.as_array()[lane]);

@@ -55,17 +55,23 @@ impl World {
 
     /// Begins a control step: commands are sent to the robots.
     pub(super) fn begin_step(&mut self, commands: &[f32]) {
-        let Some(senses) = self.senses.as_mut().filter(|_| !self.state.broken) else { return };
-        senses.send(commands, &self.shared.setup.config);
+        if self.is_lost() {
+            return;
+        }
+        if let Some(senses) = &mut self.senses {
+            senses.send(commands, &self.shared.setup.config);
+        }
     }
 
     /// Ends a control step with the exposures of its ticks: robots report, and what has arrived is known.
     pub(super) fn end_step(&mut self, film: &Film) {
-        let Some(senses) = self.senses.as_mut().filter(|_| !self.state.broken) else { return };
-        let setup = &self.shared.setup;
-        let parameters = self.state.own_parameters.as_deref().unwrap_or(&setup.parameters);
-        let watched = Watched { config: &setup.config, parameters, state: &self.state };
-        senses.end_step(film, watched, &setup.parameters);
+        if self.is_lost() {
+            return;
+        }
+        if let Some(mut senses) = self.senses.take() {
+            senses.end_step(film, self.watched(), &self.shared.setup.parameters);
+            self.senses = Some(senses);
+        }
     }
 
     fn watched(&self) -> Watched<'_> {
