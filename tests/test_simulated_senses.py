@@ -140,7 +140,75 @@ class Plain:
     def __init__(self, *arguments: Any) -> None:  # noqa: ANN401  (those of a simulator)
         self._simulator = Simulator(*arguments)
         for name in ("place", "restart", "reposition_balls", "step", "snapshot", "restore"):
-            setattr(self, name, getattr(self._simulator, name))
+            if not hasattr(self, name):
+                setattr(self, name, getattr(self._simulator, name))
+
+
+class Sensible(Plain):
+    """A simulator with senses whose steps do not write what is sensed."""
+
+    sense: Any
+    begin_senses: Any
+
+    def __init__(self, *arguments: Any) -> None:  # noqa: ANN401  (those of a simulator)
+        super().__init__(*arguments)
+        self.sense, self.begin_senses = self._simulator.sense, self._simulator.begin_senses
+        self.restarts = 0
+
+    def restart(self, *arguments: Any) -> None:  # noqa: ANN401  (those of a simulator)
+        self.restarts += 1
+        self._simulator.restart(*arguments)
+
+
+@pytest.mark.parametrize("sensing", ["vsss", "vsss, forecast=1, forecast_others=1"])
+def test_a_step_writes_what_is_sensed_afterwards(sensing: str) -> None:
+    """Also where the referee restarts play between the two, and where some matches wait."""
+    options: dict[str, Any] = {
+        "sensing": sensing,
+        "autoreset": "next_step",
+        "max_steps": 300,
+    }
+    at_once = Matches("VSSMatch-v0", 6, 2, **options)
+    assert at_once.play.senses is not None
+    assert at_once.play.senses.own_rows is at_once.play.sensed.rows
+    made: list[Sensible] = []
+
+    def simulator(*arguments: Any) -> Sensible:  # noqa: ANN401  (those of a simulator)
+        made.append(Sensible(*arguments))
+        return made[-1]
+
+    afterwards = Matches("VSSMatch-v0", 6, 2, simulator=simulator, **options)
+    first = [matches.reset() for matches in (at_once, afterwards)]
+    assert first[0].tobytes() == first[1].tobytes()
+    rng, shape = np.random.default_rng(0), (6, len(at_once.agents), at_once.action_size)
+    actions = np.zeros(shape, np.float32)
+    for step in range(700):
+        if step % 20 == 0:
+            actions = rng.uniform(-1.0, 1.0, shape).astype(np.float32)
+        one, two = (matches.step(actions) for matches in (at_once, afterwards))
+        assert one.observations.tobytes() == two.observations.tobytes()
+        assert at_once.play.sensed.rows.tobytes() == afterwards.play.sensed.rows.tobytes()
+    assert made[0].restarts > 0, "after goals and where the ball is stuck"
+
+
+def test_a_simulator_steps_and_senses_at_once() -> None:
+    config = TASKS["VSSSelfPlay-v0"].config.with_sensing(Sensing("vsss"))
+    simulator, shape = Simulator(config, 3), (3, config.row_size)
+    rows, known, expected = (np.full(shape, 7.0, np.float32) for _ in range(3))
+    simulator.begin_senses(np.ones(3, np.bool_), np.arange(3, dtype=np.uint64))
+    commands = np.full((3, 6, 2), 30.0, np.float32)
+    active = np.array([True, False, True])
+    for _ in range(20):
+        simulator.step(commands, rows, active, sensed=known)
+    simulator.sense(expected, active)
+    assert known.tobytes() == expected.tobytes()
+    assert (known[1] == 7.0).all()
+    before = simulator.snapshot()
+    with pytest.raises(ValueError, match=r"sensed must have shape \(3, "):
+        simulator.step(commands, rows, sensed=known[:2])
+    with pytest.raises(ValueError, match="sensed must be writeable: The given array is already"):
+        simulator.step(commands, rows, sensed=rows)
+    assert simulator.snapshot() == before
 
 
 def test_a_simulator_without_senses_is_refused() -> None:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rsoccer import checks
-from rsoccer.arrays import Array, Mask
+from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.frame import Frame
 from rsoccer.rng import WorldRng
 from rsoccer.view import SIDES
@@ -85,6 +85,11 @@ class Senses(ABC):
             frame: true state.
             worlds: (n,) indices of the worlds in the simulator.
         """
+
+    @property
+    def own_rows(self) -> Floats | None:
+        """(n, row) rows of `frame` if `rsoccer.Simulator.step` can write them, or None."""
+        return None
 
     @abstractmethod
     def sense(self, frame: Frame, active: Mask | None = None) -> None:

@@ -125,6 +125,11 @@ class SimulatedSenses(Senses):
             self.stepper.sense(known.rows, active, *team)
         self._join()
 
+    @property
+    def own_rows(self) -> Floats | None:
+        """(n, row) rows of `frame`, if all robots know the same; see `Senses.own_rows`."""
+        return self.frame.rows if self.observing is None else None
+
     def take(self, worlds: NDArray[np.intp]) -> SimulatedSenses:
         """Return a copy of some worlds; see `Senses.take`."""
         frame, rng, teams = self.frame.take(worlds), self.rng[worlds], None

@@ -128,13 +128,14 @@ impl Simulator {
         PyArray1::from_vec(py, moved).reshape([change.chosen, bodies])
     }
 
-    #[pyo3(signature = (commands, out, active = None))]
+    #[pyo3(signature = (commands, out, active = None, sensed = None))]
     fn step(
         &mut self,
         py: Python<'_>,
         commands: &Bound<'_, PyAny>,
         out: &Bound<'_, PyAny>,
         active: Option<&Bound<'_, PyAny>>,
+        sensed: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
         let robots = self.0.config().n_robots();
         let columns = self.0.config().command_columns();
@@ -147,7 +148,11 @@ impl Simulator {
         let active = active.as_ref().map(values);
         let mut out = self.rows_out(out)?;
         let out = out.as_slice_mut()?;
-        py.detach(|| self.0.step(&commands, out, active.as_deref()))
+        let shape = [self.0.worlds(), self.row_size()];
+        let mut sensed: Option<RowsOut> =
+            sensed.map(|sensed| writeable("sensed", sensed, &shape)).transpose()?;
+        let sensed = sensed.as_mut().map(RowsOut::as_slice_mut).transpose()?;
+        py.detach(|| self.0.step_and_sense(&commands, out, sensed, active.as_deref()))
             .map_err(|error| PyRuntimeError::new_err(error.to_string()))
     }
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from typing import Any, Final, Protocol
+from typing import Any, Final, Protocol, cast
 
 import numpy as np
 from gymnasium.spaces import Box
@@ -625,8 +625,8 @@ class Matches:
         self._move(active)
         restarts = self._judge()
         outcome = self._evaluate()
-        self._restart(restarts, outcome, active)
-        self._sense(active)
+        restarted = self._restart(restarts, outcome, active)
+        self._sense(active, restarted)
         self._observe()
         if paused:
             paused.restore(self.task, self._observations, outcome)
@@ -657,7 +657,11 @@ class Matches:
     def _move(self, active: Mask | None) -> None:
         """Move the robots and balls of all worlds, or of the active ones."""
         play = self.play
-        times = self._simulator.step(play.commands, out=play.last_frame.rows, active=active)
+        rows, sensed, times = play.last_frame.rows, self._own_rows(), None
+        if sensed is None:
+            times = self._simulator.step(play.commands, out=rows, active=active)
+        else:
+            cast(Simulator, self._simulator).step(play.commands, rows, active, sensed)
         play.advance()
         if not self._is_own_simulator:  # which checks its rows itself
             checks.rows(f"{type(self._simulator).__name__}.step", play.frame)
@@ -687,12 +691,18 @@ class Matches:
         none = self._observations[:0]
         return Outcome(none, none, rewards, terms, terminated.copy(), truncated, metrics)
 
-    def _restart(self, restarts: list[Restart], outcome: Outcome, active: Mask | None) -> None:
-        """Restart play where a rule has stopped it and the episode goes on."""
+    def _restart(
+        self, restarts: list[Restart], outcome: Outcome, active: Mask | None
+    ) -> Mask | None:
+        """Restart play where a rule has stopped it and the episode goes on.
+
+        Returns:
+            (n,) bool, these worlds; None if there are none.
+        """
         if not restarts:
-            return
+            return None
         going = ~outcome.ended if active is None else ~outcome.ended & active
-        play = self.play
+        play, restarted = self.play, np.zeros(self.worlds, np.bool_)
         for restart in restarts:
             chosen = select(restart, going)
             if not len(chosen.worlds):
@@ -702,12 +712,24 @@ class Matches:
             self._stamp(self._starts.restart(mask, chosen.rows, chosen.balls, play.frame.rows))
             play.last_frame.rows[mask] = play.frame.rows[mask]
             begin(self._rules, play, chosen.worlds)
+            restarted |= mask
         play.expire_views()
+        return restarted
 
-    def _sense(self, active: Mask | None) -> None:
+    def _sense(self, active: Mask | None, restarted: Mask | None) -> None:
         """Let the sensor model compute what the robots know."""
-        if self.play.senses is not None:
-            self.play.senses.sense(self.play.frame, active)
+        senses = self.play.senses
+        if senses is None:
+            return
+        if self._own_rows() is None:
+            senses.sense(self.play.frame, active)
+        elif restarted is not None:
+            senses.sense(self.play.frame, restarted)
+
+    def _own_rows(self) -> Floats | None:
+        """Rows of what robots know that the simulator writes in its step; None where it cannot."""
+        senses = self.play.senses
+        return senses.own_rows if senses is not None and self._is_own_simulator else None
 
     def _observe(self) -> None:
         """Compute the observations of all observers, if a learner or a policy reads them."""

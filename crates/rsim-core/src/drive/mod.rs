@@ -138,9 +138,13 @@ fn mounted<'a, D: 'a, W>(
 }
 
 /// The parts of commands that the wheels of a block follow, by column.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(crate) struct BlockCommands([Lanes; MAX_COLUMNS]);
 
 impl BlockCommands {
+    /// Commands to stand still.
+    pub(crate) const NONE: Self = Self([Lanes::ZERO; MAX_COLUMNS]);
+
     /// Reads the commands of block `block` from rows of `columns` numbers, one row per robot.
     pub(crate) fn read(commands: &[f32], columns: usize, block: usize) -> Self {
         let row = |lane: usize| {

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::ball::mouth::Kicker;
 use crate::blocks::{Lanes, blocks_of, larger, set_bits};
 use crate::body_parameters::BodyParameters;
-use crate::drive::{MAX_WHEELS, WheelErrors};
+use crate::drive::{BlockCommands, BlockWheels, MAX_WHEELS, WheelErrors};
 use crate::geometry::motion::rotated;
 use crate::math::Vector;
 use crate::models::sensing::Sensing;
@@ -23,8 +23,8 @@ pub(super) struct Actuators {
     kickers: Vec<Kicker>,
     /// Commands as the robots hear them and kickers and dribblers obey them, a row for each.
     commands: Vec<f32>,
-    /// Part of the maximum speeds that the batteries left when the robots heard them.
-    battery: f32,
+    /// The same for the wheels as they obey them, by block.
+    wheels: Vec<BlockCommands>,
 }
 
 impl Actuators {
@@ -35,7 +35,7 @@ impl Actuators {
             gains: (0..blocks_of(robots)).map(|_| std::array::from_fn(|_| gain())).collect(),
             kickers: vec![Kicker::EXACT; robots],
             commands: vec![0.0; robots * columns],
-            battery: 1.0,
+            wheels: vec![BlockCommands::NONE; blocks_of(robots)],
         }
     }
 
@@ -50,14 +50,15 @@ impl Actuators {
         parameters: &BodyParameters,
     ) {
         self.commands.copy_from_slice(heard);
-        self.battery = (1.0 - sensing.battery_sag * seconds).max(EMPTY_BATTERY);
-        if parameters.mouths == 0 || self.battery >= 1.0 && kickers_are_exact(sensing) {
+        let battery = (1.0 - sensing.battery_sag * seconds).max(EMPTY_BATTERY);
+        let columns = heard.len() / self.kickers.len().max(1);
+        self.turn_wheels(heard, columns, sensing, battery, &parameters.wheels);
+        if parameters.mouths == 0 || battery >= 1.0 && kickers_are_exact(sensing) {
             return;
         }
         let mut draws = Draws::of(key, Purpose::Command, !number);
         let [kick_failures, dribbler_failures] = [sensing.kick_failures, sensing.dribbler_failures]
             .map(|probability| draws.which_of(probability, parameters.mouths));
-        let columns = heard.len() / self.kickers.len().max(1);
         for index in set_bits(parameters.mouths) {
             let model = &parameters.robots[index].model;
             let own = &mut self.commands[index * columns..][..model.command_columns().len()];
@@ -71,7 +72,7 @@ impl Actuators {
             let noise = draws.normal(sensing.kick_speed_noise);
             let angle = draws.normal(sensing.kick_direction_noise);
             self.kickers[index] = Kicker {
-                gain: self.battery * (1.0 + noise).max(0.0),
+                gain: battery * (1.0 + noise).max(0.0),
                 direction: rotated(Vector::X, angle),
             };
         }
@@ -82,16 +83,34 @@ impl Actuators {
         &self.commands
     }
 
-    /// Errors of a robot's kicker.
-    pub(super) fn kicker(&self, robot: usize) -> Kicker {
-        self.kickers[robot]
+    /// Errors of the robots' kickers.
+    pub(super) fn kickers(&self) -> &[Kicker] {
+        &self.kickers
     }
 
-    /// Errors of the wheels of a block; `None` if they obey exactly.
-    pub(super) fn wheel_errors(&self, block: usize, sensing: &Sensing) -> Option<WheelErrors<'_>> {
-        let (dead_zone, battery) = (sensing.wheel_dead_zone, self.battery);
+    /// Commands of the wheels as they obey them, by block.
+    pub(super) fn wheels(&self) -> &[BlockCommands] {
+        &self.wheels
+    }
+
+    /// Lets wheels hear rows of `columns` numbers.
+    fn turn_wheels(
+        &mut self,
+        heard: &[f32],
+        columns: usize,
+        sensing: &Sensing,
+        battery: f32,
+        wheels: &[BlockWheels],
+    ) {
+        let dead_zone = sensing.wheel_dead_zone;
         let are_exact = sensing.wheel_error == 0.0 && dead_zone == 0.0 && battery >= 1.0;
-        (!are_exact).then(|| WheelErrors { gains: &self.gains[block], dead_zone, battery })
+        let blocks = self.wheels.iter_mut().zip(&self.gains).zip(wheels).enumerate();
+        for (block, ((command, gains), wheels)) in blocks {
+            *command = BlockCommands::read(heard, columns, block);
+            if !are_exact {
+                command.obey(wheels, WheelErrors { gains, dead_zone, battery });
+            }
+        }
     }
 }
 

@@ -71,7 +71,7 @@ impl Film {
     ) -> impl Iterator<Item = Exposed<'a>> {
         let each = self.exposures.iter().zip(self.motions.chunks_exact(parameters.inertia.len()));
         let own = each.filter(move |(exposure, _)| exposure.id.key == key);
-        own.map(move |(&exposure, motions)| Exposed { exposure, motions, parameters })
+        own.map(move |(exposure, motions)| Exposed { exposure, motions, parameters })
     }
 
     /// Forgets all exposures.
@@ -84,7 +84,7 @@ impl Film {
 /// The bodies at the instant of an exposure.
 #[derive(Clone, Copy)]
 pub(super) struct Exposed<'a> {
-    exposure: Exposure,
+    exposure: &'a Exposure,
     motions: &'a [MotionBlock],
     pub(super) parameters: &'a BodyParameters,
 }

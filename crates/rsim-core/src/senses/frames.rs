@@ -7,6 +7,7 @@ use crate::geometry::motion::Motion;
 use crate::senses::detections::{
     BallMotion, DetectedBall, DetectedBlock, DetectedRobot, Velocities,
 };
+use crate::senses::queue::remove_first;
 
 /// A frame: detections of all cameras at one instant.
 #[derive(Debug, Clone, Copy)]
@@ -170,14 +171,14 @@ impl Frames {
             return;
         }
         let [balls, blocks, again] = self.ends_of(self.arrived);
-        self.ends.drain(..self.arrived);
+        remove_first(&mut self.ends, self.arrived);
         self.arrived = 0;
-        self.balls.drain(..balls);
-        self.blocks.drain(..blocks);
-        self.again.drain(..again);
+        remove_first(&mut self.balls, balls);
+        remove_first(&mut self.blocks, blocks);
+        remove_first(&mut self.again, again);
         // These are all there, or none.
-        self.ball_motions.drain(..balls.min(self.ball_motions.len()));
-        self.velocities.drain(..blocks.min(self.velocities.len()));
+        remove_first(&mut self.ball_motions, balls);
+        remove_first(&mut self.velocities, blocks);
         #[expect(clippy::cast_possible_truncation, reason = "they were of this size")]
         let [balls, blocks, again] = [balls, blocks, again].map(|end| end as u32);
         for frame in &mut self.ends {

@@ -3,10 +3,11 @@
 use serde::{Deserialize, Serialize};
 
 use crate::models::sensing::Sensing;
+use crate::senses::queue::remove_first;
 use crate::senses::random::{Draws, Purpose};
 
 /// Commands of a control step on their way.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 struct Sent {
     /// Tick at whose start they arrive.
     due: u64,
@@ -102,8 +103,8 @@ impl Link {
             change = Some(Change { robots, number });
         }
         if arrived > 0 {
-            self.under_way.drain(..arrived);
-            self.queued.drain(..arrived * self.commands.len());
+            remove_first(&mut self.under_way, arrived);
+            remove_first(&mut self.queued, arrived * self.commands.len());
         }
         self.idle_until = self.under_way.first().map_or(u64::MAX, |next| next.due);
         let Some(timeout) = timeout else { return change };

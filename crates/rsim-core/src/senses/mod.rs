@@ -14,6 +14,7 @@ pub(crate) mod frames;
 mod held;
 mod link;
 mod noise;
+mod queue;
 mod random;
 mod reports;
 mod resting;
@@ -31,7 +32,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::ball::mouth::Kicker;
 use crate::body_parameters::BodyParameters;
-use crate::drive::WheelErrors;
+use crate::drive::BlockCommands;
 use crate::forecast::commands::CommandLog;
 use crate::forecast::{Knowledge, MAX_FORECAST};
 use crate::models::config::SimConfig;
@@ -154,14 +155,14 @@ impl Senses {
         self.actuators.commands()
     }
 
-    /// Errors of a robot's kicker.
-    pub(crate) fn kicker(&self, robot: usize) -> Kicker {
-        self.actuators.kicker(robot)
+    /// Errors of the robots' kickers.
+    pub(crate) fn kickers(&self) -> &[Kicker] {
+        self.actuators.kickers()
     }
 
-    /// Errors of the wheels of a block; `None` if they obey exactly.
-    pub(crate) fn wheel_errors(&self, block: usize) -> Option<WheelErrors<'_>> {
-        self.actuators.wheel_errors(block, &self.sensing)
+    /// The same for the wheels as they obey them, by block.
+    pub(crate) fn wheels(&self) -> &[BlockCommands] {
+        self.actuators.wheels()
     }
 
     /// Watches the state after a tick.

@@ -10,6 +10,7 @@ use crate::body_parameters::BodyParameters;
 use crate::geometry::motion_block::MotionBlock;
 use crate::models::sensing::Sensing;
 use crate::senses::cameras::ROUNDING;
+use crate::senses::queue::remove_first;
 use crate::senses::random::{Draws, Purpose};
 use crate::state::State;
 
@@ -123,7 +124,7 @@ impl Reports {
         let has_come = |report: &&Report| report.due <= now + ROUNDING;
         let arrived = self.under_way.iter().take_while(has_come).count();
         let blocks = self.motions.len();
-        for (nth, Report { cut, lost, .. }) in self.under_way.drain(..arrived).enumerate() {
+        for (nth, &Report { cut, lost, .. }) in self.under_way[..arrived].iter().enumerate() {
             self.cut = self.cut & lost | cut & !lost;
             let reported = self.queued[nth * blocks..].iter().zip(&mut self.motions);
             for (block, (new, known)) in reported.enumerate() {
@@ -133,7 +134,8 @@ impl Reports {
                     lost.bitselect(known.angular_velocity, new.angular_velocity);
             }
         }
-        self.queued.drain(..arrived * blocks);
+        remove_first(&mut self.under_way, arrived);
+        remove_first(&mut self.queued, arrived * blocks);
     }
 
     /// Reports that have arrived.

@@ -2,9 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::blocks::{
-    LANES, Lanes, VectorLanes, alternating_series, mask_of_bits, set_bits, smaller,
-};
+use crate::blocks::{LANES, Lanes, VectorLanes, mask_of_bits, set_bits, smaller};
 use crate::geometry::motion::Motion;
 use crate::geometry::motion_block::MotionBlock;
 use crate::math::Vector;
@@ -219,10 +217,10 @@ impl TrackBlock {
         }
     }
 
-    /// Whether a detection is where a body would be without a push.
-    pub(super) fn expects(&self, lane: usize, detected: Vector, filter: &Filter) -> bool {
+    /// Where detections of a body are expected without a push.
+    pub(super) fn expected(&self, lane: usize, filter: &Filter) -> Expected {
         let gate = filter.gains(self.positions).gate.as_array()[lane];
-        (detected - self.motion.position.get(lane)).length_squared() <= gate
+        Expected { place: self.motion.position.get(lane), gate }
     }
 
     /// Takes in a detection by another camera at the instant of the last one.
@@ -230,6 +228,22 @@ impl TrackBlock {
         let part = 0.5 * filter.gains(self.positions).alpha.as_array()[lane];
         let position = self.motion.position.get(lane);
         self.motion.position.set(lane, position + (detected - position) * part);
+    }
+}
+
+/// A circle in which detections of a body are expected.
+#[derive(Clone, Copy)]
+pub(super) struct Expected {
+    /// m.
+    pub(super) place: Vector,
+    /// Squared radius, m².
+    gate: f32,
+}
+
+impl Expected {
+    /// Whether a detection is inside.
+    pub(super) fn has(self, detected: Vector) -> bool {
+        (detected - self.place).length_squared() <= self.gate
     }
 }
 
@@ -245,24 +259,24 @@ pub(super) fn unit(heading: Vector) -> Vector {
     if is_unit { heading } else { heading.normalize() }
 }
 
-/// Angles up to which the series of [`turned`] hold, rad.
-const SERIES: f32 = 1.6;
+/// Angles up to which the series of [`turned`] holds, rad.
+const SERIES: f32 = 1.0;
 
-/// Headings turned by angles, rad. Cosine and sine are series, to a few ten-thousandths; the length stays 1 by a
-/// step of Newton's method.
+/// Headings turned by angles, rad, to a thousandth for the largest and far better for usual ones. Cosine and sine
+/// follow from the tangent of half the angle, which is a series; the length stays 1 by a step of Newton's method.
 fn turned(heading: VectorLanes, angle: Lanes) -> VectorLanes {
     let square = angle * angle;
-    let mut turn = VectorLanes {
-        x: alternating_series(square, [2.0, 12.0, 30.0, 56.0]),
-        y: angle * alternating_series(square, [6.0, 20.0, 42.0]),
-    };
+    let [half, twelfth, tenth] = [1.0 / 2.0, 1.0 / 12.0, 1.0 / 10.0].map(Lanes::splat);
+    let tangent = half * angle * (Lanes::ONE + square * twelfth * (Lanes::ONE + square * tenth));
+    let square_tangent = tangent * tangent;
+    let mut turn = VectorLanes { x: Lanes::ONE - square_tangent, y: tangent + tangent }
+        * (Lanes::ONE / (Lanes::ONE + square_tangent));
     for lane in set_bits(square.simd_gt(Lanes::splat(SERIES * SERIES)).to_bitmask().into()) {
         let (sin, cos) = libm::sincosf(angle.as_array()[lane]);
         turn.set(lane, Vector::new(cos, sin));
     }
-    let turned = heading.rotated_by(turn);
-    let [half, more] = [0.5, 1.5].map(Lanes::splat);
-    turned * (more - half * turned.length_squared())
+    let more = Lanes::splat(1.5) - half * heading.length_squared();
+    heading.rotated_by(turn) * more
 }
 
 #[cfg(test)]
@@ -325,7 +339,7 @@ mod tests {
         for _ in 0..10_000 {
             track.coast(PERIOD);
             let seen = Vector::new(draws.normal(0.001), draws.normal(0.001));
-            pushes += u32::from(!track.expects(LANE, seen, &filter));
+            pushes += u32::from(!track.expected(LANE, &filter).has(seen));
             track.update_position(LANE, seen, &filter);
         }
         assert!(pushes < 30, "{pushes}");

@@ -159,22 +159,21 @@ impl Tracker {
         self.ball.height = [0.0; 2];
         let (filter, ball) = (&self.filters.ball, &mut self.ball);
         let (block, lane) = self.tracks.of(BALL);
-        let predicted = *block;
-        let is_expected = |seen: &&DetectedBall| predicted.expects(lane, seen.position, filter);
-        let mut expected = balls.iter().filter(is_expected).peekable();
-        if expected.peek().is_some() {
-            for seen in expected {
-                update_ball(block, lane, seen.position, filter);
-            }
+        let expected = block.expected(lane, filter);
+        let mut is_there = false;
+        for seen in balls.iter().filter(|seen| expected.has(seen.position)) {
+            update_ball(block, lane, seen.position, filter);
+            is_there = true;
+        }
+        if is_there {
             ball.refused = 0;
             return;
         }
-        let place = predicted.motion(lane).position;
-        let distance = |seen: &&DetectedBall| (seen.position - place).length_squared();
+        let distance = |seen: &&DetectedBall| (seen.position - expected.place).length_squared();
         let Some(nearest) = balls.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))) else {
             return;
         };
-        let reach = MIN_REACH + MAX_BALL_SPEED * predicted.unseen(lane);
+        let reach = MIN_REACH + MAX_BALL_SPEED * block.unseen(lane);
         if distance(&nearest) <= reach * reach {
             update_ball(block, lane, nearest.position, filter);
             ball.refused = 0;

@@ -4,7 +4,7 @@ use crate::ball::mouth::Kicker;
 use crate::blocks::{lanes_of_robots, mask_of_bits, set_bits};
 use crate::body_parameters::BodyParameters;
 use crate::columns::{OMNI_COLUMNS, OMNI_WHEELS_COLUMNS};
-use crate::drive::{BlockCommands, BlockWheels, WheelErrors};
+use crate::drive::BlockCommands;
 use crate::models::robot::Drive;
 use crate::state::State;
 
@@ -32,6 +32,17 @@ pub(super) struct HandlingCommand {
     pub(super) kicker: Kicker,
 }
 
+/// Commands as robots hear them that do not obey exactly.
+#[derive(Clone, Copy)]
+pub(crate) struct Heard<'a> {
+    /// A row for each robot.
+    pub(crate) rows: &'a [f32],
+    /// Commands that the wheels obey, by block.
+    pub(crate) wheels: &'a [BlockCommands],
+    /// Errors of the kicker of each robot.
+    pub(crate) kickers: &'a [Kicker],
+}
+
 impl StepCommands {
     /// Reads the commands from rows of `columns` numbers, one row per robot, and sets the dribblers of
     /// `state`. Commands of absent robots are ignored.
@@ -43,8 +54,34 @@ impl StepCommands {
         columns: usize,
     ) {
         let blocks = 0..parameters.wheels.len();
+        let wheels = blocks.map(|block| BlockCommands::read(commands, columns, block));
+        self.take(state, parameters, commands, columns, wheels);
+    }
+
+    /// The same for robots that do not obey exactly.
+    pub(crate) fn hear(
+        &mut self,
+        state: &mut State,
+        parameters: &BodyParameters,
+        heard: Heard<'_>,
+        columns: usize,
+    ) {
+        self.take(state, parameters, heard.rows, columns, heard.wheels.iter().copied());
+        for command in &mut self.handling {
+            command.kicker = heard.kickers[command.robot];
+        }
+    }
+
+    fn take(
+        &mut self,
+        state: &mut State,
+        parameters: &BodyParameters,
+        commands: &[f32],
+        columns: usize,
+        wheels: impl Iterator<Item = BlockCommands>,
+    ) {
         self.wheels.clear();
-        self.wheels.extend(blocks.map(|block| BlockCommands::read(commands, columns, block)));
+        self.wheels.extend(wheels);
         if state.absent != 0 {
             self.halt(state.absent);
         }
@@ -56,27 +93,6 @@ impl StepCommands {
             state.bodies.set_dribbling(index, command.dribbler);
             if command.kicks() || command.dribbler > 0.0 {
                 self.handling.push(command);
-            }
-        }
-    }
-
-    /// Replaces the exact kickers of all robots.
-    pub(crate) fn set_kickers(&mut self, kicker_of: impl Fn(usize) -> Kicker) {
-        for command in &mut self.handling {
-            command.kicker = kicker_of(command.robot);
-        }
-    }
-
-    /// Replaces the commands of wheels by those that they obey with their errors; `errors_of` gives those of a block,
-    /// or `None` if they obey exactly.
-    pub(crate) fn set_wheel_errors<'a>(
-        &mut self,
-        wheels: &[BlockWheels],
-        errors_of: impl Fn(usize) -> Option<WheelErrors<'a>>,
-    ) {
-        for (block, (command, wheels)) in self.wheels.iter_mut().zip(wheels).enumerate() {
-            if let Some(errors) = errors_of(block) {
-                command.obey(wheels, errors);
             }
         }
     }

@@ -20,7 +20,7 @@ use crate::state::{Setup, State};
 use crate::tick::bounce::FreeWay;
 use crate::tick::flight::Flight;
 use crate::tick::squeeze::Squeeze;
-pub(crate) use commands::StepCommands;
+pub(crate) use commands::{Heard, StepCommands};
 
 /// Version of the physics, raised whenever the same start and commands would give other states.
 pub const PHYSICS_VERSION: u32 = 7;

@@ -10,7 +10,7 @@ use crate::senses::exposed::Film;
 use crate::senses::frames::CameraFrame;
 use crate::senses::{Senses, Watched};
 use crate::state::{Setup, State};
-use crate::tick::Tick;
+use crate::tick::{Heard, Tick};
 use crate::world::{WorkingMemory, World};
 
 impl World {
@@ -94,9 +94,9 @@ pub(super) fn advance_sensed(
         let changed = senses.receive(Watched { config, parameters, state });
         // The memory is shared by all worlds of a thread.
         if changed || nth == 0 {
-            read.read(state, parameters, senses.commands(), columns);
-            read.set_kickers(|robot| senses.kicker(robot));
-            read.set_wheel_errors(&parameters.wheels, |block| senses.wheel_errors(block));
+            let (rows, wheels) = (senses.commands(), senses.wheels());
+            let heard = Heard { rows, wheels, kickers: senses.kickers() };
+            read.hear(state, parameters, heard, columns);
         }
         Tick { setup, parameters, commands: read }.advance(state, engine)?;
         senses.watch(Watched { config, parameters, state }, film);
