@@ -217,7 +217,7 @@ impl TrackBlock {
         }
     }
 
-    /// Where detections of a body are expected without a push.
+    /// The circle in which detections of a body are expected without a push.
     pub(super) fn expected(&self, lane: usize, filter: &Filter) -> Expected {
         let gate = filter.gains(self.positions).gate.as_array()[lane];
         Expected { place: self.motion.position.get(lane), gate }
