@@ -702,7 +702,7 @@ class Matches:
         if not restarts:
             return None
         going = ~outcome.ended if active is None else ~outcome.ended & active
-        play, restarted = self.play, np.zeros(self.worlds, np.bool_)
+        play, restarted = self.play, None
         for restart in restarts:
             chosen = select(restart, going)
             if not len(chosen.worlds):
@@ -712,7 +712,7 @@ class Matches:
             self._stamp(self._starts.restart(mask, chosen.rows, chosen.balls, play.frame.rows))
             play.last_frame.rows[mask] = play.frame.rows[mask]
             begin(self._rules, play, chosen.worlds)
-            restarted |= mask
+            restarted = mask if restarted is None else restarted | mask
         play.expire_views()
         return restarted
 

@@ -102,10 +102,8 @@ impl Link {
             let robots = !lost | change.map_or(0, |change| change.robots);
             change = Some(Change { robots, number });
         }
-        if arrived > 0 {
-            remove_first(&mut self.under_way, arrived);
-            remove_first(&mut self.queued, arrived * self.commands.len());
-        }
+        remove_first(&mut self.under_way, arrived);
+        remove_first(&mut self.queued, arrived * self.commands.len());
         self.idle_until = self.under_way.first().map_or(u64::MAX, |next| next.due);
         let Some(timeout) = timeout else { return change };
         if now - self.waiting_since >= timeout {

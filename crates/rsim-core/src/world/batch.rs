@@ -178,12 +178,12 @@ impl Batch {
         } else {
             let portion = self.threads.portion(self.worlds.len(), 1, MAX_PORTION);
             let sensed =
-                sensed.chunks_mut(portion * size).map(Some).chain(iter::repeat_with(|| None));
+                sensed.chunks_mut(portion * size).chain(iter::repeat_with(Default::default));
             let rows = out.chunks_mut(portion * size).zip(sensed);
             let pairs = self.worlds.chunks_mut(portion).zip(rows);
             let portions = (0..).step_by(portion).zip(pairs);
             self.threads.share(portions, |(first, (worlds, (rows, sensed)))| {
-                step(first, worlds, rows, sensed.unwrap_or_default());
+                step(first, worlds, rows, sensed);
             });
         }
         let lost = lost.into_inner().unwrap_or_else(PoisonError::into_inner);
