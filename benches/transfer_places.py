@@ -38,7 +38,7 @@ class Place:
     robot: str = ""
     """Preset of its robots; empty for those of the task."""
     ball: str = ""
-    """Preset of the ball of its likeness; empty for that of the task."""
+    """Preset of its ball; empty for that of the task."""
 
     @property
     def league(self) -> str:
@@ -156,10 +156,15 @@ TRIALS: Final = (
     Trial("SSLContestedPossession-v0", "best"),
     Trial("SSLContestedPossession-v0", "best", forecasts=True),
     Trial("SSLContestedPossession-v0", "best:robust"),
+    Trial("SSLContestedPossession-v0", "strike"),
     Trial("SSLPassEndurance-v1", "best"),
     Trial("SSLPassEndurance-v1", "best", forecasts=True),
+    Trial("SSLPassEndurance-v1", "passer"),
+    Trial("SSLPassEndurance-v1", "passer", forecasts=True),
     Trial("SSLPassEnduranceMulti-v1", "best", forecasts=True),
     Trial("SSLPassEnduranceMulti-v1", "best:robust"),
+    Trial("SSLPassEnduranceMulti-v1", "passer"),
+    Trial("SSLPassEnduranceMulti-v1", "passer", forecasts=True),
 )
 """Tasks and policies to play, in this order."""
 
@@ -180,9 +185,7 @@ def likeness(place: Place, trial: Trial) -> tuple[Task, Sensing]:
         place: the place.
         trial: what is played.
     """
-    options = _robot(place)
-    if place.ball:
-        options["ball"] = place.ball
+    options = _bodies(place)
     forecast = ", forecast=1" if is_forecast(trial) else ""
     sensing = make_sensing(f"{place.sensing}{forecast}")
     assert isinstance(sensing, Sensing), "a preset"
@@ -196,12 +199,13 @@ def as_played(place: Place, trial: Trial) -> tuple[Task, Sensing | None]:
         place: the place.
         trial: what is played.
     """
-    task = make_task(trial.task, **_robot(place))
+    task = make_task(trial.task, **_bodies(place))
     if is_forecast(trial):
         return task, Sensing(command_delay=place.delay, forecast=1.0, **place.tracker)
     return task, Sensing(**place.tracker) if place.tracker else None
 
 
-def _robot(place: Place) -> dict[str, Any]:
-    """The option `robot` of tasks that are played in a place."""
-    return {"robot": place.robot} if place.robot else {}
+def _bodies(place: Place) -> dict[str, Any]:
+    """Options `robot` and `ball` of tasks that are played in a place."""
+    names = {"robot": place.robot, "ball": place.ball}
+    return {option: name for option, name in names.items() if name}

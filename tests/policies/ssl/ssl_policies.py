@@ -39,10 +39,12 @@ def expect_view_needed(name: str, task: Task) -> None:
         policy.act(PolicyInput(shape, None, None), rng, policy.new_memory(shape, rng))
 
 
-def mean_metric(task: Task, metric: str, **controllers: str) -> float:
+def mean_metric(task: Task, metric: str, sensing: str | None = None, **controllers: str) -> float:
     """Mean of a metric at the end of 30 episodes."""
     worlds = 30
-    matches = Matches(task, worlds, 9, 2, controllers=controllers, autoreset="disabled")
+    matches = Matches(
+        task, worlds, 9, 2, controllers=controllers, sensing=sensing, autoreset="disabled"
+    )
     matches.reset()
     assert not matches.agents, "every robot has a policy"
     values, playing = np.zeros(worlds, np.float32), np.ones(worlds, np.bool_)

@@ -4,8 +4,9 @@ from typing import Final
 
 import numpy as np
 
-from rsoccer.arrays import Floats
+from rsoccer.arrays import Floats, Mask
 from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
+from rsoccer.policies.rolling import RollingLaw
 from rsoccer.policies.ssl import motion
 from rsoccer.policies.ssl.interception import point_on_ball_line
 from rsoccer.policies.ssl.pass_lines import PassSpeed
@@ -20,15 +21,27 @@ from rsoccer.view import View
 ARRIVAL_SPEED: Final = np.float32(1.8)  # m/s of a pass on arrival: the dribbler stops it
 LONG_PASS: Final = np.float32(3.0)  # m from which a pass is faster, to arrive in time
 LONG_PASS_GAIN: Final = np.float32(0.3)  # m/s faster on arrival, per m beyond LONG_PASS
-MAX_ANGULAR_VELOCITY: Final = 5.0  # rad/s, with the ball on the dribbler
-MAX_AIM_SINE: Final = np.float32(0.008)  # sine of the heading error for a kick
-MAX_KICK_ANGULAR_VELOCITY: Final = np.float32(0.15)  # rad/s of the robot for a kick
+MAX_ANGULAR_VELOCITY: Final = np.float32(5.0)  # rad/s
+ANGULAR_VELOCITY_WITH_BALL: Final = np.float32(3.0)  # rad/s, with the ball on the dribbler
+MAX_AIM_SINE: Final = np.float32(0.012)  # sine of the heading error for a kick
+MAX_KICK_ANGULAR_VELOCITY: Final = np.float32(0.4)  # rad/s of the robot for a kick
 MAX_RECEIVER_SPEED: Final = np.float32(0.1)  # m/s of a teammate for a pass
 MIN_BALL_SPEED: Final = np.float32(0.3)  # m/s of a ball that is on its way
-MIN_DISTANCE: Final = np.float32(2.0)  # m to the teammate
+DISTANCES: Final = (np.float32(2.1), np.float32(2.6))  # m to the teammate, least and greatest
 LINE_MARGIN: Final = 0.3  # m between the robot's center and the field's lines
 MAX_SPEED: Final = 2.0  # m/s
-RETREAT_SPEED: Final = 1.0  # m/s, away from a teammate that is too near
+MEETING_SPEED: Final = np.float32(0.8)  # m/s on arrival below which a receiver goes to the ball
+NEAR: Final = np.float32(0.4)  # m up to which a robot goes to a loose ball
+LOOSE_SPEED: Final = np.float32(1.0)  # m/s up to which a ball near a robot is loose
+TOUCHING_GAIN: Final = np.float32(6.0)  # m/s, per m between its dribbler and the ball
+PRESS: Final = np.float32(0.004)  # m by which it aims beyond the touch
+TOUCHING_SPEED: Final = np.float32(0.5)  # m/s
+RELEASED: Final = np.float32(0.3)  # m from its center at which a robot has passed the ball
+CLOSING_DISTANCE: Final = np.float32(0.3)  # m to a coming ball from which a receiver meets it
+CLOSING_SPEED: Final = np.float32(0.15)  # m/s, with which it does
+KICK_SECONDS: Final = 0.2  # s for which a kick is asked: kickers charge, or wait for a touch
+HELD_SECONDS: Final = 0.075  # s with the ball before a kick: a forecast has it before it is there
+WAITING_SPEED: Final = 2.0  # m/s, to where a robot waits for a pass
 
 
 class Passer(Policy):
@@ -51,7 +64,17 @@ class Passer(Policy):
         if task.n_blue < 2:
             raise ValueError(f"task: passer needs a teammate, got {task.name}")
         self._region = Region.of_field(task.config.field, LINE_MARGIN)
-        self._pass_speed = PassSpeed(task.config.ball)
+        self._pass_speed, self._rolling = PassSpeed(task.config.ball), RollingLaw(task.config.ball)
+        self._kick_steps = round(KICK_SECONDS / task.config.time_step)
+        self._held_steps = round(HELD_SECONDS / task.config.time_step)
+
+    def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> Memory:
+        """Return steps with the ball, the kick that is asked, m/s, and steps left of it.
+
+        Each is (n, robots): `held`, `kick` and `steps`.
+        """
+        held, steps = np.zeros((2, *shape[:2]), np.int64)
+        return {"held": held, "kick": np.zeros(shape[:2], np.float32), "steps": steps}
 
     def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
         """Return actions, (n, robots, 5)."""
@@ -63,11 +86,38 @@ class Passer(Policy):
         pass_x, pass_y = other_x - ego.position[..., 0], other_y - ego.position[..., 1]
         v_x, v_y = self._receiving_velocity(view)
         face_x, face_y = np.where(has_ball, pass_x, to_x), np.where(has_ball, pass_y, to_y)
-        angular_velocity = motion.angular_velocity_to(ego, face_x, face_y, MAX_ANGULAR_VELOCITY)
+        limit = np.where(has_ball, ANGULAR_VELOCITY_WITH_BALL, MAX_ANGULAR_VELOCITY)
+        angular_velocity = motion.angular_velocity_to(ego, face_x, face_y, limit)
         zero = np.float32(0.0)
-        kick = np.where(has_ball, self._kick_speed(view), zero)
-        v_x, v_y = np.where(has_ball, zero, v_x), np.where(has_ball, zero, v_y)
+        memory["held"][:] = np.where(has_ball, memory["held"] + 1, 0)
+        may_kick = memory["held"] > self._held_steps
+        kick = self._kick_on(np.where(may_kick, self._kick_speed(view), zero), has_ball, memory)
+        to_mouth = self._velocity_to_ball(to_x, to_y)
+        near = has_ball | self._is_loose(view, norm(to_x, to_y))
+        v_x, v_y = (np.where(near, *each) for each in zip(to_mouth, (v_x, v_y), strict=True))
         return self._control.actions(ego, v_x, v_y, angular_velocity, kick)
+
+    def _is_loose(self, view: View, distance: Floats) -> Mask:
+        """(n, robots) whether a slow ball is near, and does not roll to the robot by itself."""
+        speed = norm(*(view.ball.velocity[..., i] for i in (0, 1)))
+        coming, _, _ = point_on_ball_line(view, MIN_BALL_SPEED)
+        loose: Mask = (distance < NEAR) & (speed < LOOSE_SPEED) & ~coming
+        return loose
+
+    def _velocity_to_ball(self, x: Floats, y: Floats) -> XY:
+        """Velocity (m/s) of a robot up to a ball, so that its dribbler touches it."""
+        distance = norm(x, y)
+        gap = np.maximum(distance - self._control.mouth_distance, np.float32(0.0)) + PRESS
+        scale = np.minimum(TOUCHING_GAIN * gap, TOUCHING_SPEED) * reciprocal(distance)
+        return x * scale, y * scale
+
+    def _kick_on(self, asked: Floats, has_ball: Mask, memory: Memory) -> Floats:
+        """The kick that has begun, for as long as the robot has the ball; else the one asked."""
+        kick, steps = memory["kick"], memory["steps"]
+        steps -= 1
+        over = ~has_ball | (kick == 0.0) | (steps <= 0)
+        kick[over], steps[over] = asked[over], self._kick_steps
+        return kick.copy()
 
     def _kick_speed(self, view: View) -> Floats:
         """Kick speed (m/s) of a robot that is ready to pass; 0 for others."""
@@ -93,22 +143,52 @@ class Passer(Policy):
         return np.where(ready, speed, np.float32(0.0))
 
     def _receiving_velocity(self, view: View) -> XY:
-        """Velocity (m/s) onto the line of a coming ball, or away from a teammate too near."""
-        position = view.ego.position
-        other_x, other_y = _teammate(view)
+        """Velocity (m/s) onto the line of a coming ball, or to a place to wait for one."""
+        position, ball = view.ego.position, view.ball
         coming, x, y = point_on_ball_line(view, MIN_BALL_SPEED)
+        coming &= self._is_released(view)
+        u_x, u_y, is_slow = self._slow_ball(view)
+        # The robot's center, with the ball at its mouth.
+        mouth = self._control.mouth_distance
+        x = np.where(is_slow, ball.position[..., 0] + mouth * u_x, x)
+        y = np.where(is_slow, ball.position[..., 1] + mouth * u_y, y)
         line_x, line_y = motion.velocity_to(position, x, y, MAX_SPEED)
-        away_x, away_y = position[..., 0] - other_x, position[..., 1] - other_y
-        distance = norm(away_x, away_y)
-        scale = MIN_DISTANCE * reciprocal(distance)
-        retreat = self._region.clamp(other_x + away_x * scale, other_y + away_y * scale)
-        away_x, away_y = motion.velocity_to(position, *retreat, RETREAT_SPEED)
-        near = distance < MIN_DISTANCE
-        zero = np.float32(0.0)
+        # Toward the ball at last, so that it does not come to rest before the mouth.
+        way = norm(*(position[..., i] - ball.position[..., i] for i in (0, 1)))
+        close = np.where(way < CLOSING_DISTANCE, CLOSING_SPEED, np.float32(0.0))
+        wait_x, wait_y = self._waiting_velocity(view)
         return (
-            np.where(coming, line_x, np.where(near, away_x, zero)),
-            np.where(coming, line_y, np.where(near, away_y, zero)),
+            np.where(coming, line_x - close * u_x, wait_x),
+            np.where(coming, line_y - close * u_y, wait_y),
         )
+
+    def _is_released(self, view: View) -> Mask:
+        """(n, robots) whether the ball has left the teammate; what it carries rolls, too."""
+        other_x, other_y = _teammate(view)
+        x, y = (view.ball.position[..., i] for i in (0, 1))
+        released: Mask = norm(other_x - x, other_y - y) > RELEASED
+        return released
+
+    def _waiting_velocity(self, view: View) -> XY:
+        """Velocity (m/s) to a place at a good distance from the teammate, inside the region."""
+        position, (other_x, other_y) = view.ego.position, _teammate(view)
+        from_x, from_y = position[..., 0] - other_x, position[..., 1] - other_y
+        distance = norm(from_x, from_y)
+        scale = np.clip(distance, *DISTANCES) * reciprocal(distance)
+        x, y = self._region.clamp(other_x + from_x * scale, other_y + from_y * scale)
+        is_absent = view.teammates.absent[:, :, 0] > 0.5
+        x, y = np.where(is_absent, position[..., 0], x), np.where(is_absent, position[..., 1], y)
+        return motion.velocity_to(position, x, y, WAITING_SPEED)
+
+    def _slow_ball(self, view: View) -> tuple[Floats, Floats, Mask]:
+        """Direction of the ball, and whether it arrives below `MEETING_SPEED` at each robot."""
+        velocity, position = view.ball.velocity, view.ball.position
+        speed = norm(velocity[..., 0], velocity[..., 1])
+        scale = reciprocal(speed, MIN_BALL_SPEED)
+        way = norm(*(view.ego.position[..., i] - position[..., i] for i in (0, 1)))
+        lost = np.float32(2.0) * self._rolling.deceleration * way
+        is_slow: Mask = speed * speed < lost + MEETING_SPEED * MEETING_SPEED
+        return velocity[..., 0] * scale, velocity[..., 1] * scale, is_slow
 
 
 def _teammate(view: View) -> XY:
