@@ -9,6 +9,7 @@ use crate::drive::{BlockCommands, BlockWheels, MAX_WHEELS, WheelErrors};
 use crate::geometry::motion::rotated;
 use crate::math::Vector;
 use crate::models::sensing::Sensing;
+use crate::senses::fetch::Fetched;
 use crate::senses::random::{Draws, Purpose};
 
 /// Part of the maximum speed that an empty battery leaves.
@@ -28,6 +29,12 @@ pub(super) struct Actuators {
 }
 
 impl Actuators {
+    /// Fetches commands and errors.
+    pub(super) fn fetch(&self, fetched: &mut Fetched) {
+        self.gains.iter().flatten().for_each(|gain| fetched.lanes(gain));
+        fetched.numbers(&self.commands);
+    }
+
     /// The actuators of all robots, with their errors. A command has `columns` numbers.
     pub(super) fn new(robots: usize, columns: usize, sensing: &Sensing, draws: &mut Draws) -> Self {
         let mut gain = || larger(Lanes::ONE + draws.normal_lanes(sensing.wheel_error), Lanes::ZERO);

@@ -12,6 +12,7 @@ use crate::models::sensing::Sensing;
 use crate::senses::Watched;
 use crate::senses::detections::{BallMotion, DetectedBall, DetectedBlock, DetectedRobot};
 use crate::senses::exposed::{Exposed, ExposureId, Film};
+use crate::senses::fetch::Fetched;
 use crate::senses::frames::Frames;
 use crate::senses::random::{Draws, Purpose};
 use crate::senses::visibility::{Lens, Obstacle};
@@ -29,6 +30,13 @@ pub(super) struct Cameras {
     exposures: u64,
     /// Time of the next exposure, s.
     next: f64,
+}
+
+impl Cameras {
+    /// Fetches all cameras.
+    pub(super) fn fetch(&self, fetched: &mut Fetched) {
+        self.all.iter().for_each(|camera| fetched.number(camera.index.into()));
+    }
 }
 
 /// A camera above the middle of its part of the field.

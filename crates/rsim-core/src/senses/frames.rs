@@ -7,6 +7,7 @@ use crate::geometry::motion::Motion;
 use crate::senses::detections::{
     BallMotion, DetectedBall, DetectedBlock, DetectedRobot, Velocities,
 };
+use crate::senses::fetch::Fetched;
 use crate::senses::queue::remove_first;
 
 /// A frame: detections of all cameras at one instant.
@@ -120,6 +121,16 @@ struct Ends {
 }
 
 impl Frames {
+    /// Fetches all frames.
+    pub(super) fn fetch(&self, fetched: &mut Fetched) {
+        self.ends.iter().for_each(|ends| fetched.number(ends.due.to_bits()));
+        self.balls.iter().step_by(4).for_each(|ball| fetched.number(ball.z.to_bits().into()));
+        for block in &self.blocks {
+            fetched.lanes(&block.position.x);
+            fetched.lanes(&block.heading.y);
+        }
+    }
+
     /// Forgets the frames on their way.
     pub(super) fn forget_on_way(&mut self) {
         self.ends.truncate(self.arrived);

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::models::sensing::Sensing;
+use crate::senses::fetch::Fetched;
 use crate::senses::queue::remove_first;
 use crate::senses::random::{Draws, Purpose};
 
@@ -45,6 +46,14 @@ pub(super) struct Change {
 }
 
 impl Link {
+    /// Fetches what was heard and what is on its way.
+    pub(super) fn fetch(&self, fetched: &mut Fetched) {
+        self.under_way.iter().for_each(|sent| fetched.number(sent.number));
+        self.heard.iter().step_by(8).for_each(|tick| fetched.number(*tick));
+        fetched.numbers(&self.queued);
+        fetched.numbers(&self.commands);
+    }
+
     /// A link to `robots` robots that have heard nothing yet.
     pub(super) fn new(robots: usize, columns: usize) -> Self {
         Self {

@@ -9,6 +9,7 @@ mod cameras;
 mod detections;
 mod driven;
 pub(crate) mod exposed;
+pub(crate) mod fetch;
 mod filter;
 pub(crate) mod frames;
 mod held;
@@ -40,6 +41,7 @@ use crate::models::sensing::Sensing;
 use crate::senses::actuators::Actuators;
 use crate::senses::driven::Orders;
 use crate::senses::exposed::Film;
+use crate::senses::fetch::Fetched;
 use crate::senses::frames::CameraFrame;
 use crate::senses::held::Beams;
 use crate::senses::link::Link;
@@ -106,6 +108,14 @@ impl Senses {
         };
         senses.look(watched);
         senses
+    }
+
+    /// Fetches what a step needs.
+    pub(crate) fn fetch(&self, fetched: &mut Fetched) {
+        self.visions.iter().for_each(|vision| vision.fetch(fetched));
+        self.reports.fetch(fetched);
+        self.link.fetch(fetched);
+        self.actuators.fetch(fetched);
     }
 
     /// Looks at bodies that were placed, as if they had been watched for some time.

@@ -10,6 +10,7 @@ use crate::body_parameters::BodyParameters;
 use crate::geometry::motion_block::MotionBlock;
 use crate::models::sensing::Sensing;
 use crate::senses::cameras::ROUNDING;
+use crate::senses::fetch::Fetched;
 use crate::senses::queue::remove_first;
 use crate::senses::random::{Draws, Purpose};
 use crate::state::State;
@@ -65,6 +66,14 @@ pub(super) struct Reports {
 }
 
 impl Reports {
+    /// Fetches what is known and what is on its way.
+    pub(super) fn fetch(&self, fetched: &mut Fetched) {
+        self.under_way.iter().for_each(|report| fetched.number(report.cut));
+        let motions = self.queued.iter().chain(&self.motions);
+        motions.for_each(|own| fetched.lanes(&own.angular_velocity));
+        self.gyroscope_errors.iter().for_each(|error| fetched.lanes(error));
+    }
+
     /// Before the first report.
     pub(super) fn new(parameters: &BodyParameters, sensing: &Sensing, draws: &mut Draws) -> Self {
         let robots = parameters.robots.len();

@@ -7,6 +7,7 @@ use crate::geometry::motion::Motion;
 use crate::geometry::motion_block::MotionBlock;
 use crate::math::Vector;
 use crate::senses::detections::DetectedBlock;
+use crate::senses::fetch::Fetched;
 use crate::senses::filter::{Filter, Gains, LONG};
 
 /// Time without a detection after which a body is taken to stand still, s.
@@ -50,6 +51,14 @@ impl TrackBlock {
             headings: long,
             refused: Lanes::ZERO,
             unseen: Lanes::ZERO,
+        }
+    }
+
+    /// Fetches the estimates.
+    pub(super) fn fetch(&self, fetched: &mut Fetched) {
+        let MotionBlock { position, velocity, heading, angular_velocity, .. } = &self.motion;
+        for lanes in [&position.x, &velocity.x, &heading.x, angular_velocity, &self.unseen] {
+            fetched.lanes(lanes);
         }
     }
 

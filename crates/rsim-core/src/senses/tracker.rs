@@ -8,6 +8,7 @@ use crate::geometry::motion_block::MotionBlock;
 use crate::math::{Vec3, Vector};
 use crate::models::sensing::Sensing;
 use crate::senses::detections::{BallMotion, DetectedBall};
+use crate::senses::fetch::Fetched;
 use crate::senses::filter::Filter;
 use crate::senses::frames::Frame;
 use crate::senses::held::{Beams, Held};
@@ -55,6 +56,12 @@ impl Tracker {
         let ball = Ball { height: [0.0; 2], spin: Vec3::ZERO, refused: 0, held: None };
         let filters = Filters::of(sensing, period, ROBOT_ACCELERATION, ANGULAR_ACCELERATION);
         Self { ball, tracks: Tracks::new(robots), time: 0.0, filters }
+    }
+
+    /// Fetches all estimates.
+    pub(super) fn fetch(&self, fetched: &mut Fetched) {
+        fetched.number(self.time.to_bits());
+        self.tracks.fetch(fetched);
     }
 
     /// Begins anew from a first frame, whose bodies have been watched before.

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::blocks::{blocks_of, place_of, robot};
 use crate::geometry::motion::Motion;
 use crate::models::sensing::Sensing;
+use crate::senses::fetch::Fetched;
 use crate::senses::filter::Filter;
 use crate::senses::frames::Frame;
 use crate::senses::noise::Noise;
@@ -23,6 +24,11 @@ impl Tracks {
     /// The ball and `robots` robots, none of which was ever seen.
     pub(super) fn new(robots: usize) -> Self {
         Self { blocks: vec![TrackBlock::new(); blocks_of(robots)] }
+    }
+
+    /// Fetches all estimates.
+    pub(super) fn fetch(&self, fetched: &mut Fetched) {
+        self.blocks.iter().for_each(|block| block.fetch(fetched));
     }
 
     /// The estimated motion of a body.

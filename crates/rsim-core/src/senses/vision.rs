@@ -8,6 +8,7 @@ use crate::senses::Watched;
 use crate::senses::cameras::{Cameras, ROUNDING};
 use crate::senses::driven::{DrivenRobots, Orders, Tracked};
 use crate::senses::exposed::Film;
+use crate::senses::fetch::Fetched;
 use crate::senses::frames::{CameraFrame, Frames};
 use crate::senses::held::Beams;
 use crate::senses::random::Draws;
@@ -34,6 +35,13 @@ impl Vision {
         let has_driven = sensing.forecast >= 0.5 && sensing.tracker >= 0.5;
         let driven = has_driven.then(|| Box::new(DrivenRobots::new(robots, sensing, period)));
         Self { key, cameras, frames: Frames::default(), tracker, driven }
+    }
+
+    /// Fetches cameras, frames and tracker.
+    pub(super) fn fetch(&self, fetched: &mut Fetched) {
+        self.cameras.fetch(fetched);
+        self.frames.fetch(fetched);
+        self.tracker.fetch(fetched);
     }
 
     /// Looks at bodies that were placed. Frames on their way show where they were before.

@@ -12,6 +12,7 @@ use crate::forecast::Knowledge;
 use crate::models::config::SimConfig;
 use crate::senses::Senses;
 use crate::senses::exposed::Film;
+use crate::senses::fetch::Fetched;
 use crate::senses::frames::CameraFrame;
 use crate::state::State;
 use crate::threads::Threads;
@@ -144,6 +145,9 @@ impl Batch {
             let is_active = |index: usize| active.is_none_or(|active| active[index]);
             let end = first + worlds.len();
             let chosen = || (first..end).filter(|index| is_active(*index));
+            let mut fetched = Fetched::default();
+            chosen().for_each(|index| worlds[index - first].fetch_senses(&mut fetched));
+            drop(fetched);
             // Each part of a step runs for all worlds, with its instructions in the processor's cache.
             for index in chosen() {
                 worlds[index - first].begin_step(commands(index));

@@ -26,6 +26,7 @@ use crate::models::config::SimConfig;
 use crate::models::sensing::Sensing;
 use crate::senses::Senses;
 use crate::senses::exposed::Film;
+use crate::senses::fetch::Fetched;
 use crate::state::crossing::Crossing;
 use crate::state::{Setup, State};
 use crate::tick::{StepCommands, Tick};
@@ -120,6 +121,13 @@ impl World {
         let checked = self.check(row, parameters)?;
         self.start_match(checked);
         Ok(())
+    }
+
+    /// Fetches the senses that a step needs.
+    pub(crate) fn fetch_senses(&self, fetched: &mut Fetched) {
+        if let Some(senses) = &self.senses {
+            senses.fetch(fetched);
+        }
     }
 
     /// Starts a new match from a checked start, with new senses.

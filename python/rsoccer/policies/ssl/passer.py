@@ -22,8 +22,8 @@ ARRIVAL_SPEED: Final = np.float32(1.8)  # m/s of a pass on arrival: the dribbler
 LONG_PASS: Final = np.float32(3.0)  # m from which a pass is faster, to arrive in time
 LONG_PASS_GAIN: Final = np.float32(0.3)  # m/s faster on arrival, per m beyond LONG_PASS
 MAX_ANGULAR_VELOCITY: Final = np.float32(5.0)  # rad/s
-ANGULAR_VELOCITY_WITH_BALL: Final = np.float32(3.0)  # rad/s, with the ball on the dribbler
-MAX_AIM_SINE: Final = np.float32(0.012)  # sine of the heading error for a kick
+ANGULAR_VELOCITY_WITH_BALL: Final = np.float32(4.0)  # rad/s, with the ball on the dribbler
+MAX_AIM_OFFSET: Final = np.float32(0.028)  # m beside the teammate for a kick
 MAX_KICK_ANGULAR_VELOCITY: Final = np.float32(0.4)  # rad/s of the robot for a kick
 MAX_RECEIVER_SPEED: Final = np.float32(0.1)  # m/s of a teammate for a pass
 MIN_BALL_SPEED: Final = np.float32(0.3)  # m/s of a ball that is on its way
@@ -125,9 +125,10 @@ class Passer(Policy):
         other_x, other_y = _teammate(view)
         x, y = other_x - ball.position[..., 0], other_y - ball.position[..., 1]
         cos, sin = motion.heading_error(ego, x, y)
+        length = norm(x, y)
         ready = (
             (cos > 0.0)
-            & (np.abs(sin) < MAX_AIM_SINE)
+            & (np.abs(sin) * length < MAX_AIM_OFFSET)
             & (np.abs(ego.angular_velocity) < MAX_KICK_ANGULAR_VELOCITY)
         )
         # A ball that still moves has not been received yet.
@@ -136,7 +137,7 @@ class Passer(Policy):
         receiver_velocity = teammate.velocity[:, :, 0]
         receiver_speed = norm(receiver_velocity[..., 0], receiver_velocity[..., 1])
         ready &= (receiver_speed < MAX_RECEIVER_SPEED) & (teammate.absent[:, :, 0] == 0.0)
-        distance = np.maximum(norm(x, y) - self._control.mouth_distance, np.float32(0.0))
+        distance = np.maximum(length - self._control.mouth_distance, np.float32(0.0))
         extra = LONG_PASS_GAIN * np.maximum(distance - LONG_PASS, np.float32(0.0))
         arrival = ARRIVAL_SPEED + extra
         speed = self._pass_speed.kick(distance, arrival)
