@@ -6,7 +6,16 @@ from pathlib import Path
 import pytest
 
 from benches import transfer, transfer_tables
-from benches.transfer_places import FORECAST, HOME, PLACES, TRIALS, Trial, is_forecast, likeness
+from benches.transfer_places import (
+    FORECAST,
+    HOME,
+    PLACES,
+    TRIALS,
+    Trial,
+    as_played,
+    is_forecast,
+    likeness,
+)
 from rsoccer.drive.settings import PEERS
 from rsoccer.registry import make_task
 
@@ -33,6 +42,8 @@ def test_places_and_trials_fit() -> None:
             assert task.name == trial.task
             assert (sensing.forecast == 1.0) == is_forecast(trial)
             assert trial.forecasts == trial.name.endswith(FORECAST)
+            there, _ = as_played(place, trial)
+            assert there.config == task.config, "the robot and the ball of the place"
 
 
 def test_results_are_kept_and_gone_on_with(

@@ -29,7 +29,7 @@ pub(super) struct Actuators {
 }
 
 impl Actuators {
-    /// Fetches commands and errors.
+    /// Fetches errors of wheels, and commands by robot.
     pub(super) fn fetch(&self, fetched: &mut Fetched) {
         self.gains.iter().flatten().for_each(|gain| fetched.lanes(gain));
         fetched.numbers(&self.commands);

@@ -2,7 +2,7 @@
 //!
 //! The senses of a match are in a dozen places of memory. A step that comes to them one after the other waits
 //! for each of them where many matches do not fit into the processor's cache. Reads that depend on nothing wait
-//! together, so a step begins with one of each place, for all matches that it moves.
+//! together, so a step begins with one of most places, for all matches that a thread moves together.
 
 use crate::blocks::Lanes;
 
@@ -21,7 +21,7 @@ impl Fetched {
         self.number(lanes.as_array()[0].to_bits().into());
     }
 
-    /// Reads a number of each cache line of some numbers.
+    /// Reads a number of about each cache line of some numbers.
     pub(super) fn numbers(&mut self, numbers: &[f32]) {
         numbers
             .iter()

@@ -121,7 +121,7 @@ struct Ends {
 }
 
 impl Frames {
-    /// Fetches all frames.
+    /// Fetches what all frames have.
     pub(super) fn fetch(&self, fetched: &mut Fetched) {
         self.ends.iter().for_each(|ends| fetched.number(ends.due.to_bits()));
         self.balls.iter().step_by(4).for_each(|ball| fetched.number(ball.z.to_bits().into()));

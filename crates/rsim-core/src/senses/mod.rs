@@ -110,7 +110,7 @@ impl Senses {
         senses
     }
 
-    /// Fetches what a step needs.
+    /// Fetches most of what a step needs.
     pub(crate) fn fetch(&self, fetched: &mut Fetched) {
         self.visions.iter().for_each(|vision| vision.fetch(fetched));
         self.reports.fetch(fetched);

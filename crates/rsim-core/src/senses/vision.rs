@@ -37,7 +37,7 @@ impl Vision {
         Self { key, cameras, frames: Frames::default(), tracker, driven }
     }
 
-    /// Fetches cameras, frames and tracker.
+    /// Fetches cameras, frames and tracker; what forecasts need besides is left out.
     pub(super) fn fetch(&self, fetched: &mut Fetched) {
         self.cameras.fetch(fetched);
         self.frames.fetch(fetched);

@@ -164,7 +164,7 @@ class Passer(Policy):
         )
 
     def _is_released(self, view: View) -> Mask:
-        """(n, robots) whether the ball has left the teammate; what it carries rolls, too."""
+        """(n, robots) whether the ball has left the first teammate; what it carries rolls, too."""
         other_x, other_y = _teammate(view)
         x, y = (view.ball.position[..., i] for i in (0, 1))
         released: Mask = norm(other_x - x, other_y - y) > RELEASED
@@ -182,7 +182,10 @@ class Passer(Policy):
         return motion.velocity_to(position, x, y, WAITING_SPEED)
 
     def _slow_ball(self, view: View) -> tuple[Floats, Floats, Mask]:
-        """Direction of the ball, and whether it arrives below `MEETING_SPEED` at each robot."""
+        """Direction of the ball, and whether it arrives below `MEETING_SPEED` at each robot.
+
+        Drag and sliding are left out: the receiver sees in time that the ball is slower.
+        """
         velocity, position = view.ball.velocity, view.ball.position
         speed = norm(velocity[..., 0], velocity[..., 1])
         scale = reciprocal(speed, MIN_BALL_SPEED)
