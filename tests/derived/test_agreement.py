@@ -89,7 +89,8 @@ def test_touches_of_the_ball_agree_but_for_grazes_within_a_step(play: Play) -> N
     config, (last, frame) = play.matches.task.config, play.pair
     touched = derived.ball_touches(last, frame, config, config.time_step)
     true = frame.robots.touched_ball > 0.5
-    assert (touched == true).mean() >= 0.99
+    # A robot that creeps into a ball in its mouth touches it in some steps, as poses do not show.
+    assert (touched == true).mean() >= 0.98
     if true.sum() > 100:
         precision, recall = agreement(touched, true)
         assert precision >= 0.85
