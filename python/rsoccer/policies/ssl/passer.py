@@ -84,7 +84,8 @@ class Passer(Policy):
         has_ball = self._control.has_ball(view)
         other_x, other_y = _teammate(view)
         pass_x, pass_y = other_x - ego.position[..., 0], other_y - ego.position[..., 1]
-        v_x, v_y = self._receiving_velocity(view)
+        distance = norm(to_x, to_y)
+        v_x, v_y = self._receiving_velocity(view, distance)
         face_x, face_y = np.where(has_ball, pass_x, to_x), np.where(has_ball, pass_y, to_y)
         limit = np.where(has_ball, ANGULAR_VELOCITY_WITH_BALL, MAX_ANGULAR_VELOCITY)
         angular_velocity = motion.angular_velocity_to(ego, face_x, face_y, limit)
@@ -93,7 +94,7 @@ class Passer(Policy):
         may_kick = memory["held"] > self._held_steps
         kick = self._kick_on(np.where(may_kick, self._kick_speed(view), zero), has_ball, memory)
         to_mouth = self._velocity_to_ball(to_x, to_y)
-        near = has_ball | self._is_loose(view, norm(to_x, to_y))
+        near = has_ball | self._is_loose(view, distance)
         v_x, v_y = (np.where(near, *each) for each in zip(to_mouth, (v_x, v_y), strict=True))
         return self._control.actions(ego, v_x, v_y, angular_velocity, kick)
 
@@ -143,20 +144,22 @@ class Passer(Policy):
         speed = self._pass_speed.kick(distance, arrival)
         return np.where(ready, speed, np.float32(0.0))
 
-    def _receiving_velocity(self, view: View) -> XY:
-        """Velocity (m/s) onto the line of a coming ball, or to a place to wait for one."""
+    def _receiving_velocity(self, view: View, distance: Floats) -> XY:
+        """Velocity (m/s) onto the line of a coming ball, or to a place to wait for one.
+
+        `distance` is that of the ball, m.
+        """
         position, ball = view.ego.position, view.ball
         coming, x, y = point_on_ball_line(view, MIN_BALL_SPEED)
         coming &= self._is_released(view)
-        u_x, u_y, is_slow = self._slow_ball(view)
+        u_x, u_y, is_slow = self._slow_ball(view, distance)
         # The robot's center, with the ball at its mouth.
         mouth = self._control.mouth_distance
         x = np.where(is_slow, ball.position[..., 0] + mouth * u_x, x)
         y = np.where(is_slow, ball.position[..., 1] + mouth * u_y, y)
         line_x, line_y = motion.velocity_to(position, x, y, MAX_SPEED)
         # Toward the ball at last, so that it does not come to rest before the mouth.
-        way = norm(*(position[..., i] - ball.position[..., i] for i in (0, 1)))
-        close = np.where(way < CLOSING_DISTANCE, CLOSING_SPEED, np.float32(0.0))
+        close = np.where(distance < CLOSING_DISTANCE, CLOSING_SPEED, np.float32(0.0))
         wait_x, wait_y = self._waiting_velocity(view)
         return (
             np.where(coming, line_x - close * u_x, wait_x),
@@ -181,16 +184,15 @@ class Passer(Policy):
         x, y = np.where(is_absent, position[..., 0], x), np.where(is_absent, position[..., 1], y)
         return motion.velocity_to(position, x, y, WAITING_SPEED)
 
-    def _slow_ball(self, view: View) -> tuple[Floats, Floats, Mask]:
+    def _slow_ball(self, view: View, distance: Floats) -> tuple[Floats, Floats, Mask]:
         """Direction of the ball, and whether it arrives below `MEETING_SPEED` at each robot.
 
         Drag and sliding are left out: the receiver sees in time that the ball is slower.
         """
-        velocity, position = view.ball.velocity, view.ball.position
+        velocity = view.ball.velocity
         speed = norm(velocity[..., 0], velocity[..., 1])
         scale = reciprocal(speed, MIN_BALL_SPEED)
-        way = norm(*(view.ego.position[..., i] - position[..., i] for i in (0, 1)))
-        lost = np.float32(2.0) * self._rolling.deceleration * way
+        lost = np.float32(2.0) * self._rolling.deceleration * distance
         is_slow: Mask = speed * speed < lost + MEETING_SPEED * MEETING_SPEED
         return velocity[..., 0] * scale, velocity[..., 1] * scale, is_slow
 
