@@ -15,7 +15,7 @@ import torch
 from torch import Tensor
 
 from rsoccer.train.network.actor_critic import ActorCritic
-from rsoccer.train.network.perceptron import Perceptron, PerceptronPass
+from rsoccer.train.network.perceptron import PassMemory, Perceptron, PerceptronPass
 from rsoccer.train.ppo.batch import Batch
 from rsoccer.train.workers import Job, Workers, shards
 
@@ -43,8 +43,9 @@ class LossGradient:
             workers: threads that compute.
         """
         self._model, self._workers = model, workers
-        self._actors = [_Place(model.actor) for _ in range(workers.threads)]
-        self._critics = [_Place(model.critic) for _ in range(workers.threads)]
+        memories = [PassMemory() for _ in range(workers.threads)]
+        self._actors = [_Place(model.actor, memory) for memory in memories]
+        self._critics = [_Place(model.critic, memory) for memory in memories]
         self._size = sum(parameter.numel() for parameter in model.parameters())
         self._gradients = torch.empty(0)
         self._stats = torch.empty(0)
@@ -162,17 +163,14 @@ class LossGradient:
 
 
 class _Place:
-    """Buffers of a thread for one network: the inputs of a part, and its pass."""
+    """Memory of a thread for one network: the inputs of a part, and its pass."""
 
-    def __init__(self, network: Perceptron) -> None:
-        self._pass = PerceptronPass(network)
-        self._inputs = torch.empty((0, 0))
+    def __init__(self, network: Perceptron, memory: PassMemory) -> None:
+        self._pass, self._memory = PerceptronPass(network, memory), memory
         self.gradients = self._pass.gradients
 
     def outputs(self, inputs: Tensor, rows: Tensor) -> Tensor:
-        """Outputs (k, outputs) for some rows of the inputs, valid until the next ones."""
-        if len(self._inputs) < len(rows):
-            self._inputs = inputs.new_empty((len(rows), inputs.shape[1]))
-        chosen = self._inputs[: len(rows)]
+        """Outputs (k, outputs) for some rows of the inputs, valid until the memory's next ones."""
+        chosen = self._memory.matrix("inputs", len(rows), inputs.shape[1], inputs)
         torch.index_select(inputs, 0, rows, out=chosen)
         return self._pass.outputs(chosen)
