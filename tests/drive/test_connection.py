@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 
 import numpy as np
@@ -412,6 +413,20 @@ def test_limits_hold() -> None:
     connection.begin()
     advance(connection, 0.3)
     assert max(speeds(link.messages)) == pytest.approx(0.25)
+
+
+@pytest.mark.parametrize(("peer", "pause"), [("grsim", 0.03), ("ssl-simulation", 0.0)])
+def test_a_kick_that_lasts_is_sent_as_often_as_the_simulator_bears(peer: str, pause: float) -> None:
+    link = ServerLink(referee="off")
+    connection = connected(ONE, link, peer)
+    connection.begin()
+    kicks: list[tuple[float, bool]] = []
+    connection.on_sent.append(lambda time, sent: kicks.append((time, bool(sent[0, 3] > 0.0))))
+    advance(connection, 0.2, np.array([[0.0, 0.0, 0.0, 3.0, 0.0, 1.0]], np.float32))
+    kicked = [time for time, is_kick in kicks if is_kick]
+    assert len(kicked) > 4
+    assert all(after - before >= pause for before, after in itertools.pairwise(kicked))
+    assert (len(kicked) < len(kicks)) == (pause > 0.0)
 
 
 def test_garbage_and_frames_of_others_change_nothing() -> None:

@@ -13,6 +13,7 @@ from rsoccer._core import SimConfig
 from rsoccer.arrays import Floats, Mask
 from rsoccer.bridge.settings import BLUE_ON_POSITIVE_HALF
 from rsoccer.drive.guard_process import GuardProcess
+from rsoccer.drive.kicks import KickPauses
 from rsoccer.drive.limits import limited, stopped
 from rsoccer.drive.link import Link, SocketLink
 from rsoccer.drive.officials import Officials
@@ -79,6 +80,7 @@ class Connection:
         self.config, self.settings = config, settings
         self._clock = clock
         self._peer = make_peer(settings)
+        self._kick_pauses = KickPauses(config, self._peer.kick_pause)
         positive = settings.blue_on_positive_half
         positive = BLUE_ON_POSITIVE_HALF[settings.league] if positive is None else positive
         layout = make_layout(settings, config, positive=positive)
@@ -359,4 +361,4 @@ class Connection:
             if in_sight[slot]:
                 allowed[slot] = limited(model, allowed[slot], self.settings.limits)
         allowed[~in_sight | ~self.driven] = stopped(allowed[0])
-        return allowed
+        return self._kick_pauses.applied(self.now, allowed)

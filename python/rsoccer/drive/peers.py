@@ -47,7 +47,13 @@ class Answer(NamedTuple):
 
 
 class Peer(ABC):
-    """A simulator or robots."""
+    """A simulator or robots.
+
+    Attributes:
+        kick_pause: least time between two commands of a robot that kick, s.
+    """
+
+    kick_pause = 0.0
 
     @abstractmethod
     def commands(self, layout: WireLayout, commands: Floats, team: int) -> list[Message]:
@@ -95,7 +101,13 @@ class Peer(ABC):
 
 
 class GrSim(Peer):
-    """grSim's own packets."""
+    """grSim's own packets.
+
+    It kicks with every packet, also a ball that it has kicked since its last tick of 1/60 s: this
+    one goes on with .8 of its speed (`KickerDampFactor`).
+    """
+
+    kick_pause = 0.03
 
     def commands(self, layout: WireLayout, commands: Floats, team: int) -> list[Message]:
         """Return the messages that give a team's robots their commands; see `Peer.commands`."""

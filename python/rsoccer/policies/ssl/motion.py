@@ -9,7 +9,7 @@ from rsoccer.frame import RobotColumns
 from rsoccer.vectors import TINY, XY, norm, reciprocal, rotate_into_body
 
 BRAKE: Final = np.float32(3.0)  # m/s², deceleration before a target
-TURN_GAIN: Final = np.float32(6.0)  # rad/s, per rad of heading error
+TURN_GAIN: Final = 6.0  # rad/s, per rad of heading error
 POSITION_GAIN: Final = np.float32(8.0)  # m/s, per m to the target: the last centimeters
 SLOW_SPEED: Final = 0.5  # m/s, into the ball and close to robots
 SPEED_PER_GAP: Final = np.float32(3.0)  # m/s more, per m of gap to the nearest robot
@@ -29,7 +29,11 @@ def heading_error(ego: RobotColumns, x: Floats, y: Floats) -> XY:
 
 
 def angular_velocity_to(
-    ego: RobotColumns, x: Floats, y: Floats, max_angular_velocity: Floats | float
+    ego: RobotColumns,
+    x: Floats,
+    y: Floats,
+    max_angular_velocity: Floats | float,
+    gain: Floats | float = TURN_GAIN,
 ) -> Floats:
     """Return angular velocities (rad/s) that turn the robots to directions.
 
@@ -38,13 +42,14 @@ def angular_velocity_to(
         x: (n, robots) x of the directions, any length.
         y: (n, robots) y of the directions.
         max_angular_velocity: upper bound, rad/s.
+        gain: rad/s, per rad of heading error.
     """
     cos, sin = heading_error(ego, x, y)
     sin = np.copysign(np.maximum(np.abs(sin), TINY), sin)
     # Twice the tangent of half the angle: about the angle if small, growing up to 180 degrees.
     angle = np.float32(2.0) * sin / np.maximum(np.float32(1.0) + cos, TINY)
     limited: Floats = np.minimum(
-        np.maximum(angle * TURN_GAIN, -max_angular_velocity), max_angular_velocity
+        np.maximum(angle * gain, -max_angular_velocity), max_angular_velocity
     )
     return limited
 

@@ -10,7 +10,7 @@ from rsoccer.policies.rolling import RollingLaw
 from rsoccer.policies.ssl import motion
 from rsoccer.policies.ssl.interception import point_on_ball_line
 from rsoccer.policies.ssl.pass_lines import PassSpeed
-from rsoccer.policies.ssl.path_planning import teammate_positions
+from rsoccer.policies.ssl.path_planning import other_robots, teammate_positions
 from rsoccer.policies.ssl.region import Region
 from rsoccer.policies.ssl.robot_control import RobotControl, require_ssl
 from rsoccer.rng import WorldRng
@@ -21,8 +21,9 @@ from rsoccer.view import View
 ARRIVAL_SPEED: Final = np.float32(1.8)  # m/s of a pass on arrival: the dribbler stops it
 LONG_PASS: Final = np.float32(3.0)  # m from which a pass is faster, to arrive in time
 LONG_PASS_GAIN: Final = np.float32(0.3)  # m/s faster on arrival, per m beyond LONG_PASS
-MAX_ANGULAR_VELOCITY: Final = np.float32(5.0)  # rad/s
-ANGULAR_VELOCITY_WITH_BALL: Final = np.float32(3.0)  # rad/s, with the ball on the dribbler
+MAX_ANGULAR_VELOCITY: Final = 5.0  # rad/s
+TURN_GAIN_WITH_BALL: Final = 9.0  # rad/s, per rad of heading error
+PIVOT: Final = np.float32(0.75)  # from a turn about the robot's center, 0, to one about the ball, 1
 MAX_AIM_OFFSET: Final = np.float32(0.028)  # m beside the teammate for a kick
 MAX_KICK_ANGULAR_VELOCITY: Final = np.float32(0.4)  # rad/s of the robot for a kick
 MAX_RECEIVER_SPEED: Final = np.float32(0.1)  # m/s of a teammate for a pass
@@ -82,28 +83,28 @@ class Passer(Policy):
         ego, ball = view.ego, view.ball
         to_x, to_y = (ball.position[..., i] - ego.position[..., i] for i in (0, 1))
         has_ball = self._control.has_ball(view)
+        # Parallel to the way of the ball, which the dribbler may hold beside the robot's axis.
         other_x, other_y = _teammate(view)
-        pass_x, pass_y = other_x - ego.position[..., 0], other_y - ego.position[..., 1]
+        pass_x, pass_y = other_x - ball.position[..., 0], other_y - ball.position[..., 1]
         distance = norm(to_x, to_y)
-        v_x, v_y = self._receiving_velocity(view, distance)
+        coming = point_on_ball_line(view, MIN_BALL_SPEED)
+        v_x, v_y = self._receiving_velocity(view, distance, coming)
         face_x, face_y = np.where(has_ball, pass_x, to_x), np.where(has_ball, pass_y, to_y)
-        limit = np.where(has_ball, ANGULAR_VELOCITY_WITH_BALL, MAX_ANGULAR_VELOCITY)
-        angular_velocity = motion.angular_velocity_to(ego, face_x, face_y, limit)
+        gain = np.where(has_ball, TURN_GAIN_WITH_BALL, motion.TURN_GAIN).astype(np.float32)
+        angular_velocity = motion.angular_velocity_to(
+            ego, face_x, face_y, MAX_ANGULAR_VELOCITY, gain
+        )
         zero = np.float32(0.0)
         memory["held"][:] = np.where(has_ball, memory["held"] + 1, 0)
         may_kick = memory["held"] > self._held_steps
         kick = self._kick_on(np.where(may_kick, self._kick_speed(view), zero), has_ball, memory)
         to_mouth = self._velocity_to_ball(to_x, to_y)
-        near = has_ball | self._is_loose(view, distance)
+        near = has_ball | (_is_loose(view, distance) & ~coming[0])
         v_x, v_y = (np.where(near, *each) for each in zip(to_mouth, (v_x, v_y), strict=True))
+        # A dribbler holds a ball better where it does not have to pull it around.
+        around = np.where(has_ball, PIVOT * angular_velocity, zero)
+        v_x, v_y = v_x + around * to_y, v_y - around * to_x
         return self._control.actions(ego, v_x, v_y, angular_velocity, kick)
-
-    def _is_loose(self, view: View, distance: Floats) -> Mask:
-        """(n, robots) whether a slow ball is near, and does not roll to the robot by itself."""
-        speed = norm(*(view.ball.velocity[..., i] for i in (0, 1)))
-        coming, _, _ = point_on_ball_line(view, MIN_BALL_SPEED)
-        loose: Mask = (distance < NEAR) & (speed < LOOSE_SPEED) & ~coming
-        return loose
 
     def _velocity_to_ball(self, x: Floats, y: Floats) -> XY:
         """Velocity (m/s) of a robot up to a ball, so that its dribbler touches it."""
@@ -144,14 +145,16 @@ class Passer(Policy):
         speed = self._pass_speed.kick(distance, arrival)
         return np.where(ready, speed, np.float32(0.0))
 
-    def _receiving_velocity(self, view: View, distance: Floats) -> XY:
+    def _receiving_velocity(
+        self, view: View, distance: Floats, line: tuple[Mask, Floats, Floats]
+    ) -> XY:
         """Velocity (m/s) onto the line of a coming ball, or to a place to wait for one.
 
-        `distance` is that of the ball, m.
+        `distance` is that of the ball, m, and `line` what `point_on_ball_line` returns.
         """
         position, ball = view.ego.position, view.ball
-        coming, x, y = point_on_ball_line(view, MIN_BALL_SPEED)
-        coming &= self._is_released(view)
+        coming, x, y = line
+        coming = coming & _is_released(view)
         u_x, u_y, is_slow = self._slow_ball(view, distance)
         # The robot's center, with the ball at its mouth.
         mouth = self._control.mouth_distance
@@ -165,13 +168,6 @@ class Passer(Policy):
             np.where(coming, line_x - close * u_x, wait_x),
             np.where(coming, line_y - close * u_y, wait_y),
         )
-
-    def _is_released(self, view: View) -> Mask:
-        """(n, robots) whether the ball has left the first teammate; what it carries rolls, too."""
-        other_x, other_y = _teammate(view)
-        x, y = (view.ball.position[..., i] for i in (0, 1))
-        released: Mask = norm(other_x - x, other_y - y) > RELEASED
-        return released
 
     def _waiting_velocity(self, view: View) -> XY:
         """Velocity (m/s) to a place at a good distance from the teammate, inside the region."""
@@ -195,6 +191,28 @@ class Passer(Policy):
         lost = np.float32(2.0) * self._rolling.deceleration * distance
         is_slow: Mask = speed * speed < lost + MEETING_SPEED * MEETING_SPEED
         return velocity[..., 0] * scale, velocity[..., 1] * scale, is_slow
+
+
+def _is_loose(view: View, distance: Floats) -> Mask:
+    """(n, robots) whether a slow ball is near, and nearer than to any other robot."""
+    speed = norm(*(view.ball.velocity[..., i] for i in (0, 1)))
+    loose: Mask = (distance < NEAR) & (speed < LOOSE_SPEED)
+    return loose & (_distance_from_ball(view, slice(None)) > distance)
+
+
+def _is_released(view: View) -> Mask:
+    """(n, robots) whether the ball has left all teammates; what one of them carries rolls, too."""
+    released: Mask = _distance_from_ball(view, slice(view.n_teammates)) > RELEASED
+    return released
+
+
+def _distance_from_ball(view: View, others: slice) -> Floats:
+    """Distance (m) of the ball from the nearest of some other robots, (n, robots)."""
+    x, y = other_robots(view, others)
+    ball = view.ball.position[..., None]
+    distances: Floats = norm(x - ball[..., 0, :], y - ball[..., 1, :])
+    nearest: Floats = distances.min(axis=-1)
+    return nearest
 
 
 def _teammate(view: View) -> XY:
