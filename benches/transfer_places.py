@@ -157,6 +157,7 @@ TRIALS: Final = (
     Trial("SSLContestedPossession-v0", "best", forecasts=True),
     Trial("SSLContestedPossession-v0", "best:robust"),
     Trial("SSLContestedPossession-v0", "strike"),
+    Trial("SSLContestedPossession-v0", "strike", forecasts=True),
     Trial("SSLPassEndurance-v1", "best"),
     Trial("SSLPassEndurance-v1", "best", forecasts=True),
     Trial("SSLPassEndurance-v1", "passer"),

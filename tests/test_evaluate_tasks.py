@@ -27,7 +27,7 @@ SOLVED = [
     ("SSLStaticDefenders-v0", "strike", "goal_score", 0.6, 1.0, 15),
     ("SSLContestedPossession-v0", "strike", "goal_score", 0.4, 1.0, 11),
     ("SSLDribbling-v0", "weave", "gates", 4.0, 7.0, 10),  # every start is the same
-    ("SSLPassEndurance-v1", "passer", "received", 0.5, 1.0, 15),  # some are too late
+    ("SSLPassEndurance-v1", "passer", "received", 0.8, 1.0, 15),
     ("SSLPassEnduranceMulti-v1", "passer", "passes", 1.0, 30.0, 11),
 ]
 

@@ -106,7 +106,7 @@ def test_initial_positions_are_apart_and_inside() -> None:
 
 
 def test_passer_solves_the_task() -> None:
-    solved = expect_solved(TASK, "passer", "received", 0.8)  # the others are too late
+    solved = expect_solved(TASK, "passer", "received", 0.95)
     assert solved.largest_term() == "received"
 
 

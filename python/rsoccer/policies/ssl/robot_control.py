@@ -143,8 +143,24 @@ class RobotControl:
         Args:
             view: view of the robots.
         """
-        ego, ball = view.ego, view.ball.position
-        x, y = ball[..., 0] - ego.position[..., 0], ball[..., 1] - ego.position[..., 1]
-        ahead, left = rotate_into(x, y, ego.heading[..., 0], ego.heading[..., 1])
+        ball = view.ball.position
+        return self._in_mouth(view.ego, ball[..., 0], ball[..., 1])
+
+    def opponents_have_ball(self, view: View) -> Mask:
+        """Return which opponents have the ball in their mouths, (n, robots, opponents).
+
+        Break beams of others cannot be relied on: some flicker, and vision knows none.
+
+        Args:
+            view: view of the robots; opponents have the same model.
+        """
+        ball = view.ball.position[..., None, :]
+        found = self._in_mouth(view.opponents, ball[..., 0], ball[..., 1])
+        return np.logical_and(found, np.equal(view.opponents.absent, 0.0))
+
+    def _in_mouth(self, robots: RobotColumns, ball_x: Floats, ball_y: Floats) -> Mask:
+        """Whether balls (...) are in the mouths of robots (...), within a tolerance."""
+        x, y = ball_x - robots.position[..., 0], ball_y - robots.position[..., 1]
+        ahead, left = rotate_into(x, y, robots.heading[..., 0], robots.heading[..., 1])
         in_front: Mask = np.abs(ahead - self.mouth_distance) < BALL_AHEAD_TOLERANCE
         return in_front & (np.abs(left) < BALL_SIDE_TOLERANCE)

@@ -9,7 +9,7 @@ from typing import Final
 
 import numpy as np
 
-from rsoccer.arrays import Floats, Mask
+from rsoccer.arrays import Floats
 from rsoccer.policies.ssl import motion
 from rsoccer.policies.ssl.approach import approach_ball
 from rsoccer.policies.ssl.region import Region
@@ -28,16 +28,6 @@ _COS: Final = np.cos(APPROACH_ANGLE)
 _SIN: Final = np.sin(APPROACH_ANGLE)
 
 
-def opponent_has_ball(view: View) -> Mask:
-    """Return whether an opponent has the ball in its mouth, (n, robots).
-
-    Args:
-        view: view of the robots.
-    """
-    held: Mask = np.any(view.opponents.infrared > 0.5, axis=-1)  # False without opponents
-    return held
-
-
 def steal_ball(
     control: RobotControl, view: View, robots: XY, region: Region, max_speed: float
 ) -> tuple[Floats, Floats, Floats]:
@@ -54,7 +44,7 @@ def steal_ball(
         Velocity along x and y (m/s) and angular velocity (rad/s), (n, robots) each.
     """
     ego, ball = view.ego, view.ball
-    holder, (heading_x, heading_y) = _ball_holder(view)
+    holder, (heading_x, heading_y) = _ball_holder(control, view)
     # The slide goes to the opponent's left (1) or right (-1), inwards from the lines. The side
     # follows from the opponent's position, as the ball moves. The threshold is not 0, so that the
     # side does not flicker for an opponent in the middle.
@@ -76,9 +66,10 @@ def steal_ball(
     return v_x, v_y, np.where(slides, slide_angular_velocity, angular_velocity)
 
 
-def _ball_holder(view: View) -> tuple[XY, XY]:
+def _ball_holder(control: RobotControl, view: View) -> tuple[XY, XY]:
     """Position and heading of the opponent with the ball, or of any opponent; (n, robots)."""
-    index = np.argmax(view.opponents.infrared, axis=-1)[..., None]
+    in_mouth = control.opponents_have_ball(view)
+    index = np.argmax(in_mouth + view.opponents.infrared, axis=-1)[..., None]
 
     def select(column: Floats) -> XY:
         x, y = (np.take_along_axis(column[..., i], index, -1)[..., 0] for i in (0, 1))

@@ -18,7 +18,7 @@ from rsoccer.policies.ssl.path_planning import (
 )
 from rsoccer.policies.ssl.region import Region
 from rsoccer.policies.ssl.robot_control import RobotControl, require_ssl
-from rsoccer.policies.ssl.steal import opponent_has_ball, steal_ball
+from rsoccer.policies.ssl.steal import steal_ball
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 from rsoccer.vectors import XY, norm, reciprocal
@@ -88,8 +88,12 @@ class Strike(Policy):
         """Return actions, (n, robots, 5)."""
         view = inputs.required_view("strike")
         goes = _nearest_of_team(view)
-        steals = goes & opponent_has_ball(view)
-        shoots = goes & ~steals & self._control.has_ball(view)
+        has_ball = self._control.has_ball(view)
+        # Beams of others flicker, but tell who has the ball that lies between two mouths.
+        in_mouth = self._control.opponents_have_ball(view) & ~has_ball[..., None]
+        held = in_mouth | (view.opponents.infrared > np.float32(0.5))
+        steals = goes & held.any(axis=-1)  # none without opponents
+        shoots = goes & ~steals & has_ball
         approaches = goes & ~steals & ~shoots
         actions = np.zeros((*inputs.action_shape[:2], 5), np.float32)
         for mask, behavior in (
