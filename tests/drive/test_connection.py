@@ -415,7 +415,7 @@ def test_limits_hold() -> None:
     assert max(speeds(link.messages)) == pytest.approx(0.25)
 
 
-@pytest.mark.parametrize(("peer", "pause"), [("grsim", 0.03), ("ssl-simulation", 0.0)])
+@pytest.mark.parametrize(("peer", "pause"), [("grsim", 0.02), ("ssl-simulation", 0.0)])
 def test_a_kick_that_lasts_is_sent_as_often_as_the_simulator_bears(peer: str, pause: float) -> None:
     link = ServerLink(referee="off")
     connection = connected(ONE, link, peer)

@@ -361,4 +361,4 @@ class Connection:
             if in_sight[slot]:
                 allowed[slot] = limited(model, allowed[slot], self.settings.limits)
         allowed[~in_sight | ~self.driven] = stopped(allowed[0])
-        return self._kick_pauses.applied(self.now, allowed)
+        return self._kick_pauses.applied(self._clock(), allowed)

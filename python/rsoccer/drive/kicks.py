@@ -14,8 +14,8 @@ from rsoccer.protocols.commands import CommandRow, motion
 class KickPauses:
     """Times of the robots' last kicks.
 
-    Commands are sent again with each frame, so a kick that lasts for a control step goes out once
-    or twice.
+    Commands are sent again with each frame, so a kick that lasts for a control step would go out
+    once or twice. A kick that is left out is not made up for.
     """
 
     def __init__(self, config: SimConfig, seconds: float) -> None:
@@ -32,7 +32,7 @@ class KickPauses:
         """Return commands without the kicks that come too early, and note the others.
 
         Args:
-            now: present time, s.
+            now: present time on the wall, s.
             commands: (robots, command) commands, finite.
 
         Returns:

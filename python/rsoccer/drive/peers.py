@@ -103,11 +103,11 @@ class Peer(ABC):
 class GrSim(Peer):
     """grSim's own packets.
 
-    It kicks with every packet, also a ball that it has kicked since its last tick of 1/60 s: this
-    one goes on with .8 of its speed (`KickerDampFactor`).
+    It kicks with every packet, also a ball that it has kicked since its last tick of 1/60 s: .2 of
+    the speed of this one is taken off (`KickerDampFactor`).
     """
 
-    kick_pause = 0.03
+    kick_pause = 0.02  # between one and two ticks
 
     def commands(self, layout: WireLayout, commands: Floats, team: int) -> list[Message]:
         """Return the messages that give a team's robots their commands; see `Peer.commands`."""

@@ -83,7 +83,7 @@ class Passer(Policy):
         ego, ball = view.ego, view.ball
         to_x, to_y = (ball.position[..., i] - ego.position[..., i] for i in (0, 1))
         has_ball = self._control.has_ball(view)
-        # Parallel to the way of the ball, which the dribbler may hold beside the robot's axis.
+        # It faces along the line from ball to teammate: the ball may lie beside the robot's axis.
         other_x, other_y = _teammate(view)
         pass_x, pass_y = other_x - ball.position[..., 0], other_y - ball.position[..., 1]
         distance = norm(to_x, to_y)
@@ -194,10 +194,10 @@ class Passer(Policy):
 
 
 def _is_loose(view: View, distance: Floats) -> Mask:
-    """(n, robots) whether a slow ball is near, and nearer than to any other robot."""
+    """(n, robots) whether a slow ball is near, and no other robot nearer to it."""
     speed = norm(*(view.ball.velocity[..., i] for i in (0, 1)))
     loose: Mask = (distance < NEAR) & (speed < LOOSE_SPEED)
-    return loose & (_distance_from_ball(view, slice(None)) > distance)
+    return loose & (_distance_from_ball(view, slice(None)) >= distance)
 
 
 def _is_released(view: View) -> Mask:
@@ -216,6 +216,6 @@ def _distance_from_ball(view: View, others: slice) -> Floats:
 
 
 def _teammate(view: View) -> XY:
-    """Position (m) of the teammate, (n, robots) each; far away if it is absent."""
+    """Position (m) of the first teammate, (n, robots) each; far away if it is absent."""
     x, y = teammate_positions(view)
     return x[..., 0], y[..., 0]

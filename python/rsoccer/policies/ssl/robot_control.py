@@ -149,7 +149,7 @@ class RobotControl:
     def opponents_have_ball(self, view: View) -> Mask:
         """Return which opponents have the ball in their mouths, (n, robots, opponents).
 
-        Break beams of others cannot be relied on: some flicker, and vision knows none.
+        The break beam of a ball that barely touches flickers, and vision knows no beams.
 
         Args:
             view: view of the robots; opponents have the same model.

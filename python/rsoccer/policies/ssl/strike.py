@@ -89,7 +89,7 @@ class Strike(Policy):
         view = inputs.required_view("strike")
         goes = _nearest_of_team(view)
         has_ball = self._control.has_ball(view)
-        # Beams of others flicker, but tell who has the ball that lies between two mouths.
+        # Of a ball between two mouths the opponent's beam tells whether it has still to be stolen.
         in_mouth = self._control.opponents_have_ball(view) & ~has_ball[..., None]
         held = in_mouth | (view.opponents.infrared > np.float32(0.5))
         steals = goes & held.any(axis=-1)  # none without opponents

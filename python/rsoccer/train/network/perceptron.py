@@ -52,7 +52,11 @@ class PassMemory:
             like: a tensor with the type and the device of the numbers.
         """
         size, part = rows * columns, self._parts.get(name)
-        if part is None or part.numel() < size or part.dtype != like.dtype:
+        if (
+            part is None
+            or part.numel() < size
+            or (part.dtype, part.device) != (like.dtype, like.device)
+        ):
             part = self._parts[name] = like.new_empty(size)
         return part[:size].view(rows, columns)
 
@@ -95,7 +99,10 @@ class PerceptronPass:
 
     @torch.no_grad()
     def gradients(self, gradient: Tensor, out: Sequence[Tensor]) -> None:
-        """Write the gradients of the parameters for the rows of the last `outputs`, once for these.
+        """Write the gradients of the parameters for the rows of the last `outputs`.
+
+        It may be called once after `outputs`, and before any other pass in the same memory: it
+        overwrites the hidden units.
 
         Args:
             gradient: (n, outputs) gradient of the outputs of the last layer.
@@ -111,13 +118,14 @@ class PerceptronPass:
             # Hidden units are of no more use: their memory gets the gradient of the layer below.
             torch.ops.aten.tanh_backward.grad_input(by_hidden, hidden, grad_input=hidden)
             gradient = hidden
-        # Transposed: MKL takes twice as long for a product with as odd a number of columns as
-        # observations have.
+        # Transposed: MKL takes twice as long for a product with a number of columns that is not a
+        # multiple of 8, as that of most observations.
         inputs = self._activations[0]
         by_weight = self._memory.matrix("weight", inputs.shape[1], gradient.shape[1], gradient)
         torch.mm(inputs.T, gradient, out=by_weight)
         out[0].copy_(by_weight.T)
         torch.sum(gradient, 0, out=out[1])
+        self._activations = []
 
 
 def _tanh_layer(bias: Tensor, inputs: Tensor, weight: Tensor, out: Tensor) -> None:

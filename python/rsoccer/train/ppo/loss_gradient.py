@@ -163,7 +163,7 @@ class LossGradient:
 
 
 class _Place:
-    """Memory of a thread for one network: the inputs of a part, and its pass."""
+    """Passes of a thread through one network, in memory that both networks share."""
 
     def __init__(self, network: Perceptron, memory: PassMemory) -> None:
         self._pass, self._memory = PerceptronPass(network, memory), memory
