@@ -80,7 +80,7 @@ def sensed_ssl() -> Replay:
     rules = {"fouls_per_card": 1, "removal_seconds": 1.0}
     task = make_task("SSLMatch-v0", referee={**QUICK, **rules})
     sensing = Sensing("rc2021", delay=0.2)
-    return record_replay(task, lineup(task, "strike", "strike"), seconds=12.0, sensing=sensing)
+    return record_replay(task, lineup(task, "uniform", "strike"), seconds=12.0, sensing=sensing)
 
 
 @pytest.fixture(params=[vss, ssl, ssl_match], ids=["VSSS", "SSL", "SSL match"])

@@ -345,6 +345,7 @@ class Connection:
     def _send(self, commands: Floats | None) -> None:
         """Send commands as referee and limits allow them; None to let all robots stand."""
         allowed = self._stopped.copy() if commands is None else self._allowed(commands)
+        allowed = self._kick_pauses.applied(self._clock(), allowed)
         self._link.send(self._messages(allowed))
         self._sent_at = self._clock()
         if self._guard is not None:
@@ -361,4 +362,4 @@ class Connection:
             if in_sight[slot]:
                 allowed[slot] = limited(model, allowed[slot], self.settings.limits)
         allowed[~in_sight | ~self.driven] = stopped(allowed[0])
-        return self._kick_pauses.applied(self._clock(), allowed)
+        return allowed

@@ -47,14 +47,17 @@ class BallInPlay:
         self.in_play = False
         self.kick_position: tuple[float, float] | None = None
 
-    def give(self, command: Command) -> None:
+    def give(self, command: Command, *, again: bool = False) -> None:
         """Take in the command of a packet; nothing changes if it goes on.
 
         Args:
             command: command of the referee.
+            again: whether the same command was given anew: its time begins again.
         """
         before, self.command = self.command, command
         if command is before:
+            if again:
+                self.steps, self.kick_position = 0, None
             return
         self.steps = 0
         if command in _PREPARED or command in _DIRECT or command is Command.FORCE_START:

@@ -13,7 +13,7 @@ from rsoccer.frame import robot_names
 from rsoccer.game import BLUE, NOBODY, YELLOW, Event, EventKind
 from rsoccer.protocols.ball_in_play import BallInPlay
 from rsoccer.protocols.layout import TEAM_NAMES, TEAMS, WireLayout
-from rsoccer.protocols.referee import RefereeStatus, read_packet
+from rsoccer.protocols.referee import RefereeStatus, read_packet, read_stamp
 from rsoccer.protocols.schemas import referee_pb2
 from rsoccer.render.referee_state import COLUMNS
 from rsoccer.replay import events
@@ -42,6 +42,7 @@ class LogReferee:
         self._state = BallInPlay(_rules(layout))
         self._reported: set[str] = set()
         self._new: list[Event] = []
+        self._counter: int | None = None
 
     def add(self, message: referee_pb2.Packet) -> None:
         """Bring the state up to date.
@@ -54,7 +55,8 @@ class LogReferee:
             self.layout = replace(self.layout, blue_on_positive_half=side)
         status, _ = read_packet(self.layout, message)
         before, self._status = self._status, status
-        self._state.give(status.command)
+        last, self._counter = self._counter, read_stamp(message).command_counter
+        self._state.give(status.command, again=last is not None and last != self._counter)
         old = status if before is None else before
         for team in TEAMS:
             if status.teams[team].score > old.teams[team].score:

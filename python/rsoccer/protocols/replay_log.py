@@ -94,10 +94,10 @@ def log_entries(replay: Recorded, layout: WireLayout, start: float = 0.0) -> Ite
             continue
         since_stop = events.add(states[i].command, reported.get(i, ()), seconds)
         status = status_of_recorded(states[i], names=replay.names, events=since_stop)
+        again = i > 0 and states[i].command_seconds < states[i - 1].command_seconds
+        stamp = stamper.stamp(status.command, seconds, again=again)
         try:
-            packet = referee.to_packet(
-                layout, status, stamper.stamp(status.command, seconds), source_identifier=UUID
-            )
+            packet = referee.to_packet(layout, status, stamp, source_identifier=UUID)
         except MessageError:
             continue  # a command of VSSS, which the game controller does not have
         yield LogEntry(time, LogKind.REFEREE, packet.SerializeToString())

@@ -166,10 +166,8 @@ def test_it_aims_by_the_ball_which_lies_beside_the_middle_of_its_mouth(side: flo
 
 def test_it_turns_about_the_ball() -> None:
     scene = Scene()
-    scene.frame.blue.position[0, 1] = (
-        -1.2,
-        2.4,
-    )  # to the left: the ball stays, the robot goes right
+    scene.frame.blue.position[0, 1] = (-1.2, 2.4)
+    # It turns to its left: the ball stays, and the robot goes to its right.
     action = scene.act()[0]
     assert action[TURN] > 0.1
     assert action[LEFT] < -0.05
