@@ -23,15 +23,10 @@ from rsoccer.bridge.sockets import (
 )
 from rsoccer.protocols.schemas import simulation_pb2, vision_pb2
 from tests.bridge.clients import local_velocity
+from tests.bridge.ports import free_port
 
 PATIENCE = 60.0
 """Longest wait of a test for a message, s: for machines that are busy."""
-
-
-def free_port() -> int:
-    with receiver(LOOPBACK, 0) as probe:
-        port: int = probe.getsockname()[1]
-        return port
 
 
 def network(**others: int) -> Network:

@@ -10,7 +10,7 @@ from rsoccer.bridge.sockets import SocketLoop
 from rsoccer.commands.serve import ENDING, Serve
 from rsoccer.protocols.schemas import grsim_pb2
 from rsoccer.replay import Replay
-from tests.bridge.test_sockets import free_port
+from tests.bridge.ports import free_port
 
 
 def ports(*names: str) -> list[str]:

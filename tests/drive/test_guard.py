@@ -19,7 +19,8 @@ from rsoccer.frame import Frame
 from rsoccer.protocols import fira
 from rsoccer.protocols.layout import WireLayout
 from rsoccer.protocols.schemas import fira_pb2
-from tests.bridge.test_sockets import PATIENCE, free_port
+from tests.bridge.ports import free_port
+from tests.bridge.test_sockets import PATIENCE
 
 CONFIG = SimConfig("vss_3v3", 3, 3)
 
