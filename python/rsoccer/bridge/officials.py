@@ -26,6 +26,7 @@ _WATCHED: Final = np.array(
     ]
 )
 """Columns whose change is reported at once."""
+_STEPS: Final = GAME_COLUMNS.index("command_steps")
 SOURCE: Final = "rSoccer-serve"
 """Identity of the sender."""
 
@@ -65,14 +66,18 @@ class GameController(Officials):
         self._stamper, self._events = referee.Stamper(), referee.EventLog()
         self._next = 0.0
         self._last: list[float] | None = None
+        self._steps = 0.0
 
     def packets(self) -> list[bytes]:
         """Return the packets that are due after a tick: none or one."""
         session, arena = self._session, self._session.arena
         play, seconds = arena.play, arena.seconds
         has_events = bool(play.events.count[0])
-        state = play.game.referee[0].take(_WATCHED).tolist()
-        if state == self._last and not has_events and seconds < self._next:
+        row = play.game.referee[0]
+        state, steps = row.take(_WATCHED).tolist(), float(row[_STEPS])
+        # As after a robot that was too close to a kick, whose team gets its time once more.
+        again, self._steps = steps < self._steps, steps
+        if state == self._last and not again and not has_events and seconds < self._next:
             return []
         game, happened = play.game, play.events.of_world(0)
         command, wire_time = Command(int(state[0])), session.epoch + seconds
@@ -81,7 +86,7 @@ class GameController(Officials):
         status = status_of_game(
             session.layout, game, 0, arena.rule.rules, names=_names(session), events=reported
         )
-        stamp = self._stamper.stamp(command, wire_time)
+        stamp = self._stamper.stamp(command, wire_time, again=again)
         try:
             packet = referee.to_packet(session.layout, status, stamp, source_identifier=SOURCE)
         except MessageError:
