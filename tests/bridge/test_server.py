@@ -76,9 +76,7 @@ def test_all_ports_tell_the_same_match() -> None:
 def test_a_command_that_is_given_again_is_told_at_once_with_a_new_count() -> None:
     wall = Wall(options={"referee": {"prepare_seconds": 5.0}})
     packets = [
-        referee_pb2.Packet.FromString(each.data)
-        for each in wall.tick(20)
-        if each.port == "referee"
+        referee_pb2.Packet.FromString(each.data) for each in wall.tick(20) if each.port == "referee"
     ]
     assert len({packet.command_counter for packet in packets}) == 1, "one command goes on"
     game = wall.server.session.arena.play.game.referee[0]
