@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 import rsoccer
-from rsoccer._core import BallModel, Field, RobotModel, SimConfig, Simulator
+from rsoccer._core import BallModel, Field, RobotModel, Sensing, SimConfig, Simulator
 from rsoccer.registry import list_options, task_class
 from rsoccer.tasks import VssSelfPlay
 
@@ -37,7 +37,7 @@ UNORDERED_WHEELS = RobotModel("ssl_generic").to_json().replace("[60.0", "[160.0"
             "front_distance must not be beyond .*, got 0.2 m",
         ),
         (lambda: RobotModel.from_json(UNORDERED_WHEELS), r"in rising order.*, got \[160.0, 135.0"),
-        (lambda: Field.from_json("{}"), "text is not a Field: missing field `name`"),
+        (lambda: Field.from_json("{}"), "expected the name of a preset as .preset., got none"),
         (lambda: SimConfig(robot=[RobotModel("vss_440rpm")]), "each of 6 robots, got 1"),
         (lambda: MIXED.robot, "robots differ: use `robots`"),
         (lambda: SimConfig(n_blue=0, n_yellow=0).robot, "there are no robots"),
@@ -202,6 +202,24 @@ def test_arguments_of_another_type_are_refused_by_name(
 ) -> None:
     with pytest.raises(TypeError, match=f"^{message}$"):
         SimConfig(**arguments)
+
+
+def test_files_of_senses_need_no_preset_and_of_robots_do(tmp_path: Path) -> None:
+    file = tmp_path / "late.json"
+    file.write_text('{"delay": 0.1}')
+    assert Sensing(str(file)) == Sensing(delay=0.1)
+    file.write_text('{"delay": -1}')
+    with pytest.raises(ValueError, match=r"late\.json: sensing\.delay must be .*, got -1"):
+        Sensing(str(file))
+    file.write_text('{"dela": 1}')
+    with pytest.raises(ValueError, match=r"late\.json: none has no \"dela\"; its numbers are"):
+        Sensing(str(file))
+    file.write_text('{"preset": 3}')
+    with pytest.raises(ValueError, match=r"late\.json: preset: expected a preset's name, got 3"):
+        Sensing(str(file))
+    file.write_text('{"mass": 0.2}')
+    with pytest.raises(ValueError, match=r'late\.json: expected the name of a preset as "preset"'):
+        RobotModel(str(file))
 
 
 @pytest.mark.parametrize("kind", [Field, BallModel, RobotModel])

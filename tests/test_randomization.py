@@ -1,5 +1,6 @@
 """Numbers that each episode draws for itself."""
 
+import json
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,7 @@ from rsoccer import (
     WorldRng,
 )
 from rsoccer._core import SENSING_NUMBERS
-from rsoccer.randomization import Randomization, Range, Ranges
+from rsoccer.randomization import Randomization, Range, Ranges, written
 from rsoccer.tasks import VssSelfPlay
 from tests.robots import robots_of
 from tests.sensors import LateAndNoisy
@@ -77,6 +78,9 @@ def test_distributions_have_their_moments(value: Range, mean: float, deviation: 
         ({"ball.mass": (0.0, 1.0)}, ValueError, "expected values from"),
         ({"sensing.delay": (0.0, 3.0)}, ValueError, "sensing.delay must be at most 1 s"),
         ([1], TypeError, "expected distributions by name"),
+        ({1: (0, 1)}, TypeError, "expected names of numbers, got 1"),
+        ({"ball.wall_restitution": (0.5, 2.0)}, ValueError, "expected values of at most 1, got 2"),
+        ({"sensing.cameras_along": (1.0, 2.5)}, ValueError, "must be a whole number, got 2.5"),
     ],
 )
 def test_wrong_distributions_are_refused(
@@ -84,6 +88,36 @@ def test_wrong_distributions_are_refused(
 ) -> None:
     with pytest.raises(error, match=message):
         Matches("VSS-v0", randomization=ranges)
+
+
+def test_numbers_of_numpy_are_numbers() -> None:
+    expected = drawn({"robot.mass": (0.5, 2.0), "ball.mass": 0.5})
+    got = drawn({"robot.mass": (np.float32(0.5), np.int64(2)), "ball.mass": np.float32(0.5)})
+    assert np.array_equal(got, expected)
+    assert json.dumps(written({"robot.mass": ("normal", np.int64(1), np.float32(0.5))}))
+
+
+def test_whole_numbers_of_senses_are_drawn_whole() -> None:
+    config = VssSelfPlay().config
+    found = Randomization.of({"sensing.cameras_along": (1, 3)}, config, None).sensing
+    assert found is not None
+    column = found.draw(WorldRng.seeded(0, 3000))[:, SENSING_NUMBERS.index("cameras_along")]
+    assert [(column == count).mean() for count in (1, 2, 3)] == pytest.approx([1 / 3] * 3, abs=0.04)
+    both = {"sensing.cameras_along": (1, 3), "sensing.cameras_across": ("normal", 2, 0)}
+    Matches("VSS-v0", 4, randomization=both).reset()
+
+
+@pytest.mark.parametrize("number", SENSING_NUMBERS)
+def test_every_number_of_senses_can_vary(number: str) -> None:
+    values = json.loads(Sensing().to_json())[number]
+    for high in (values + 1.0, values + 0.5, 0.5):
+        try:
+            matches = Matches("VSS-v0", 4, randomization={f"sensing.{number}": (values, high)})
+        except ValueError:  # out of range, as it is for all worlds
+            continue
+        matches.reset()
+        return
+    pytest.fail("no range is accepted")
 
 
 def test_a_number_of_the_ball_that_is_0_cannot_vary() -> None:

@@ -15,7 +15,8 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from numbers import Real
 from typing import Any, Final, TypeAlias
 
 import numpy as np
@@ -39,6 +40,8 @@ Ranges: TypeAlias = Mapping[str, Range]
 _KINDS: Final = ("uniform", "log_uniform", "normal")
 _BALL_NUMBERS: Final = {"hop": "vertical_restitution"}
 """Number of the ball's model that a parameter scales, where its name differs."""
+_WHOLE: Final = ("cameras_along", "cameras_across")
+"""Numbers of `Sensing` that are whole."""
 _OF_BOTH: Final = {
     "position_noise": ("ball_position_noise", "robot_position_noise"),
     "missing": ("missing_balls", "missing_robots"),
@@ -55,6 +58,9 @@ class Distribution:
     """Lower bound, or mean."""
     second: float
     """Upper bound, or standard deviation."""
+    is_whole: bool = False
+    """True for whole numbers alone: the nearest ones; all from the lower to the upper bound are
+    equally likely if the kind is uniform."""
 
     @classmethod
     def of(cls, name: str, value: Range) -> Distribution:
@@ -68,9 +74,7 @@ class Distribution:
             TypeError: another type.
             ValueError: an unknown kind, bounds in the wrong order, or numbers that are not finite.
         """
-        parts: list[Any] = (
-            [value, value] if isinstance(value, int | float) else _listed(name, value)
-        )
+        parts: list[Any] = [value, value] if isinstance(value, Real) else _listed(name, value)
         kind = parts.pop(0) if parts and isinstance(parts[0], str) else "uniform"
         if kind not in _KINDS:
             raise ValueError(f"randomization[{name!r}]: expected one of {_KINDS}, got {kind!r}")
@@ -109,6 +113,11 @@ class Distribution:
         Returns:
             (k, count) float32.
         """
+        if self.is_whole:
+            low, high = self.bounds
+            reach = 0.5 if self.kind == "uniform" else 0.0
+            around = Distribution(self.kind, self.first - reach, self.second + reach)
+            return np.clip(np.rint(around.draw(rng, count)), np.float32(low), np.float32(high))
         if self.kind == "normal":
             deviation = np.clip(rng.normal((count,)), -3.0, 3.0)
             return np.float32(self.first) + np.float32(self.second) * deviation
@@ -166,8 +175,7 @@ class Randomization:
         """
         if ranges is None:
             return cls(None, None)
-        if not isinstance(ranges, Mapping):
-            raise TypeError(f"randomization: expected distributions by name, got {ranges!r}")
+        _check_names(ranges)
         parameters: list[tuple[tuple[int, ...], Distribution]] = []
         numbers: list[tuple[tuple[int, ...], Distribution]] = []
         # By name, so that equal mappings draw equally; one noise of both bodies before that of one.
@@ -199,7 +207,11 @@ def written(ranges: Ranges) -> dict[str, Any]:
         ranges: distributions by name.
     """
     return {
-        name: list(value) if isinstance(value, Sequence) else value
+        name: (
+            [part if isinstance(part, str) else float(part) for part in value]
+            if isinstance(value, Sequence)
+            else float(value)
+        )
         for name, value in ranges.items()
     }
 
@@ -223,6 +235,15 @@ def _words(distribution: Distribution) -> str:
     return f"{first} to {second}" + (" (log)" if distribution.kind == "log_uniform" else "")
 
 
+def _check_names(ranges: object) -> None:
+    """Refuse what has no distributions by name."""
+    if not isinstance(ranges, Mapping):
+        raise TypeError(f"randomization: expected distributions by name, got {ranges!r}")
+    for name in ranges:
+        if not isinstance(name, str):
+            raise TypeError(f"randomization: expected names of numbers, got {name!r}")
+
+
 def _listed(name: str, value: object) -> list[Any]:
     """The parts of a description."""
     if isinstance(value, str) or not isinstance(value, Sequence):
@@ -234,7 +255,7 @@ def _listed(name: str, value: object) -> list[Any]:
 
 
 def _is_number(value: object) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+    return isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
 
 
 def _known() -> str:
@@ -249,9 +270,13 @@ def _of_ball(
     name: str, number: str, distribution: Distribution, config: SimConfig
 ) -> tuple[tuple[int, ...], Distribution]:
     """Column and factors of a number of the ball."""
-    value = getattr(config.ball, _BALL_NUMBERS.get(number, number))
+    attribute = _BALL_NUMBERS.get(number, number)
+    value = getattr(config.ball, attribute)
     if value == 0.0:
         raise ValueError(f"randomization: {name} is 0 for the ball {config.ball.name!r}")
+    high = distribution.bounds[1]
+    if attribute.endswith("restitution") and high > 1.0:
+        raise ValueError(f"randomization[{name!r}]: expected values of at most 1, got {high:.3g}")
     factors = distribution.scaled(1.0 / value)
     _check_factors(name, factors, value)
     return (BALL_PARAMETERS.index(number),), factors
@@ -270,6 +295,7 @@ def _of_senses(
     number: str, distribution: Distribution, sensing: Sensing
 ) -> tuple[tuple[int, ...], Distribution]:
     """Column and values of a number of senses."""
+    distribution = replace(distribution, is_whole=number in _WHOLE)
     for bound in distribution.bounds:
         Sensing.from_json(json.dumps({**json.loads(sensing.to_json()), number: bound}))
     return (SENSING_NUMBERS.index(number),), distribution

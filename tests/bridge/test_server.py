@@ -73,7 +73,7 @@ def test_all_ports_tell_the_same_match() -> None:
     assert len(reported["referee"]) >= 0.5 / 0.025
 
 
-def test_a_command_that_is_given_again_is_told_at_once_with_a_new_count() -> None:
+def test_a_command_that_is_given_again_is_reported_at_once_with_a_new_count() -> None:
     wall = Wall(options={"referee": {"prepare_seconds": 5.0}})
     packets = [
         referee_pb2.Packet.FromString(each.data) for each in wall.tick(20) if each.port == "referee"
@@ -82,12 +82,12 @@ def test_a_command_that_is_given_again_is_told_at_once_with_a_new_count() -> Non
     game = wall.server.session.arena.play.game.referee[0]
     game[GAME_COLUMNS.index("command_steps")] = 0
     wall.tick(4)
-    told = referee_pb2.Packet.FromString(
+    last = referee_pb2.Packet.FromString(
         next(each.data for each in reversed(wall.sent) if each.port == "referee")
     )
-    assert told.command == packets[-1].command
-    assert told.command_counter == packets[-1].command_counter + 1
-    assert told.command_timestamp > packets[-1].command_timestamp
+    assert last.command == packets[-1].command
+    assert last.command_counter == packets[-1].command_counter + 1
+    assert last.command_timestamp > packets[-1].command_timestamp
 
 
 def test_robots_stop_without_commands_and_another_client_takes_over() -> None:

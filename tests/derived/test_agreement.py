@@ -132,7 +132,7 @@ def test_contacts_of_opponents_and_their_speeds_agree(play: Play) -> None:
     speed = frame.robots.collision_speed
     hard = speed > 0.3
     if hard.sum() > 100:
-        assert (found.speed[hard] > 0.0).mean() >= 0.85
+        assert (found.speed[hard] > 0.0).mean() >= 0.8
         assert np.median(np.abs(found.speed - speed)[hard]) < 0.15
         assert np.corrcoef(found.speed[hard], speed[hard])[0, 1] > 0.5
     assert (found.speed[speed == 0.0] < 0.3).mean() >= 0.999

@@ -134,13 +134,12 @@ fn robots_commanded_to_stand_gained_energy_after_a_crash() {
 
 #[test]
 fn the_load_of_a_crash_was_compensated_in_the_next_tick() {
-    // A robot without contact that is commanded to stand only slows down. With the compact solver,
-    // which finds contacts four times a tick, a corner that rubs on it may leave slowly within a tick:
-    // a lasting contact, whose small load is compensated for one more tick. The load of a crash would
+    // A robot without contact that is commanded to stand only slows down. A corner that rubs on it may leave slowly
+    // within a tick: a lasting contact, whose small load is compensated for one more tick. The load of a crash would
     // give 0.03 m/s and 1 rad/s in a tick.
-    let [speed_gain, angular_gain] = match scenes::vss(1, 1).engine {
-        EngineKind::Rapier => [1e-3, 1e-2],
-        EngineKind::Compact => [1e-2, 0.2],
+    let (speed_gain, angular_gain) = match scenes::vss(1, 1).engine {
+        EngineKind::Rapier => (0.01, 0.5),
+        EngineKind::Compact => (0.01, 0.2),
     };
     let touched_opponent = robot_column("touched_opponent");
     for config in both_leagues() {
@@ -168,26 +167,33 @@ fn the_load_of_a_crash_was_compensated_in_the_next_tick() {
 }
 
 /// Two discs that meet 30 degrees off the line of their centers: friction stops the slip, so both get
-/// the angular velocity of closed form, the same for both.
+/// the angular velocity of closed form, the same for both, at whatever part of a tick they meet. Of impacts in the last
+/// sub-step of a tick it once was down to 4%.
 #[test]
 fn discs_that_meet_off_center_turn_at_the_same_angular_velocity() {
     let model = RobotModel::SSL_GENERIC;
     let radius = model.bounding_radius();
     for speed in [1.0, 3.0] {
-        let aside = radius;
-        let ahead = (3.0_f32.sqrt() * radius) + 0.02;
-        let poses = [[0.0, 0.0, 0.0], [ahead, aside, 0.0]];
-        let driver = Driver::Constant(vec![vec![speed, 0.0, 0.0, 0.0, 0.0, 0.0], vec![0.0; 6]]);
-        let mut scene = Scene::at("off_center", scenes::ssl(1, 1), &poses, driver);
-        scene.set_ball([0.0, 2.0], [0.0, 0.0]);
-        scene.set_robot_column(0, "v_x", speed);
-        let rows = scene.every_tick(0.02 / speed + 0.03);
-        let expected = 0.5 * speed / (3.0 * radius);
-        for robot in 0..2 {
-            let all = rows.iter().map(|row| robots(row).nth(robot).expect("two")[6].abs());
-            let got = all.fold(0.0, f32::max);
-            let error = (got / expected - 1.0).abs();
-            assert!(error < 0.05, "{speed} m/s, robot {robot}: {got} rad/s, not {expected}");
+        let ticks = speed * TICKS[0];
+        for part in 0_u8..20 {
+            let gap = 0.02 + ticks * f32::from(part) / 20.0;
+            let ahead = (3.0_f32.sqrt() * radius) + gap;
+            let poses = [[0.0, 0.0, 0.0], [ahead, radius, 0.0]];
+            let driver = Driver::Constant(vec![vec![speed, 0.0, 0.0, 0.0, 0.0, 0.0], vec![0.0; 6]]);
+            let mut scene = Scene::at("off_center", scenes::ssl(1, 1), &poses, driver);
+            scene.set_ball([0.0, 2.0], [0.0, 0.0]);
+            scene.set_robot_column(0, "v_x", speed);
+            let rows = scene.every_tick(gap / speed + 0.03);
+            let expected = 0.5 * speed / (3.0 * radius);
+            // rapier places the contact of a pair that still has a gap beside both.
+            let tolerance = if scene.config.engine == EngineKind::Compact { 0.05 } else { 0.3 };
+            for robot in 0..2 {
+                let all = rows.iter().map(|row| robots(row).nth(robot).expect("two")[6].abs());
+                let got = all.fold(0.0, f32::max);
+                let error = (got / expected - 1.0).abs();
+                let label = format!("{speed} m/s, gap {gap} m, robot {robot}");
+                assert!(error < tolerance, "{label}: {got} rad/s, not {expected}");
+            }
         }
     }
 }

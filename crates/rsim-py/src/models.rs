@@ -89,13 +89,21 @@ pub(crate) trait Model: Sized + Clone + for<'py> FromPyObjectOwned<'py> {
             return Self::decoded(text)?.with(None);
         };
         if let Some(part @ Value::Object(_)) = numbers.get(Self::PART) {
-            let within = |error| PyValueError::new_err(format!("{}: {error}", Self::PART));
+            let within =
+                |error| PyValueError::new_err(format!("{}: {}", Self::PART, message(&error)));
             return Self::parsed(&part.to_string()).map_err(within);
         }
-        let Some(Value::String(name)) = numbers.remove("preset") else {
-            return Self::decoded(text)?.with(None);
+        let mut model = match numbers.remove("preset") {
+            Some(Value::String(name)) => Self::preset(&name)?,
+            Some(other) => {
+                let expected = "preset: expected a preset's name";
+                return Err(PyValueError::new_err(format!("{expected}, got {other}")));
+            }
+            None if numbers.contains_key("name") => return Self::decoded(text)?.with(None),
+            None => Self::preset(OFF).map_err(|_| {
+                PyValueError::new_err("expected the name of a preset as \"preset\", got none")
+            })?,
         };
-        let mut model = Self::preset(&name)?;
         let mut given = Vec::new();
         for (key, value) in numbers {
             let Some(number) = value.as_f64() else {
@@ -119,7 +127,8 @@ pub(crate) trait Model: Sized + Clone + for<'py> FromPyObjectOwned<'py> {
                 _ => PyValueError::new_err(reason),
             }
         })?;
-        Self::parsed(&text).map_err(|error| PyValueError::new_err(format!("{path}: {error}")))
+        let within = |error| PyValueError::new_err(format!("{path}: {}", message(&error)));
+        Self::parsed(&text).map_err(within)
     }
 
     /// A hash of the name and the numbers, equal for equal models.
@@ -131,6 +140,11 @@ pub(crate) trait Model: Sized + Clone + for<'py> FromPyObjectOwned<'py> {
         values.for_each(|value| (value + 0.0).to_bits().hash(&mut hasher)); // -0 equals 0
         hasher.finish()
     }
+}
+
+/// Message of an error, without its type.
+fn message(error: &PyErr) -> String {
+    Python::attach(|py| error.value(py).to_string())
 }
 
 /// The model that an argument is or names: a model, a preset's name, or a file.

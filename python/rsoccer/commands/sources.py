@@ -42,6 +42,7 @@ def refusals_as_wrong_input() -> Iterator[None]:
     try:
         yield
     except TypeError as error:
-        if str(error).partition(":")[0] in {each.name for each in fields(Sources)}:
+        argument = str(error).partition(":")[0].partition("[")[0]
+        if argument in {each.name for each in fields(Sources)}:
             raise ValueError(str(error)) from error
         raise

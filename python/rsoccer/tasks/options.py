@@ -1,10 +1,11 @@
 """Validation of options that tasks share: models, policies, reward weights."""
 
-import math
 import os
 from collections.abc import Mapping
 from numbers import Real
 from typing import Any, TypeVar
+
+import numpy as np
 
 from rsoccer import option_values
 from rsoccer._core import BallModel, Field, RobotModel, SimConfig
@@ -150,6 +151,6 @@ def reward_weights(
     for name, weight in value.items():
         if isinstance(weight, bool) or not isinstance(weight, Real):
             raise TypeError(f"reward_weights: expected a number for {name!r}, got {weight!r}")
-        if not math.isfinite(weight):
+        if not abs(weight) <= np.finfo(np.float32).max:
             raise ValueError(f"reward_weights: expected a finite number for {name!r}, got {weight}")
     return {**default, **value}

@@ -2,8 +2,8 @@
 
 use crate::blocks::robot;
 use crate::bodies::Undisturbed;
-use crate::body_parameters::BodyParameters;
-use crate::engine::{Partner, RobotContact};
+use crate::body_parameters::{BodyParameters, RobotParameters};
+use crate::engine::{Partner, RobotContact, WALL_FRICTION};
 use crate::math::Vector;
 use crate::state::State;
 
@@ -72,35 +72,104 @@ fn separation_speed(
     contact: &RobotContact,
     motion_of: impl Fn(&State, usize) -> (Vector, f32),
 ) -> f32 {
+    relative_velocity(state, contact, motion_of).dot(contact.normal)
+}
+
+/// Velocity of the partner at a contact relative to that of the robot, m/s.
+fn relative_velocity(
+    state: &State,
+    contact: &RobotContact,
+    motion_of: impl Fn(&State, usize) -> (Vector, f32),
+) -> Vector {
     let at = |index: usize| {
         let (velocity, angular_velocity) = motion_of(state, index);
         let arm = contact.point - state.bodies.motion(robot(index)).position;
         velocity + arm.perp() * angular_velocity
     };
     let with = if let Partner::Robot(other) = contact.with { at(other) } else { Vector::ZERO };
-    (with - at(contact.robot)).dot(contact.normal)
+    with - at(contact.robot)
 }
 
-/// Applies the impulse after which a pair separates at its restitution times the closing speed, m/s.
+/// Applies the impulse after which a pair separates at its restitution times the closing speed, m/s, with the friction
+/// that it brings. In the last sub-step of a tick the solver slows two robots down only as far as they do not overlap
+/// yet, so most of a collision may be left.
 fn bounce(state: &mut State, parameters: &BodyParameters, contact: &RobotContact, closing: f32) {
     let RobotContact { robot: first, with, normal, point } = *contact;
-    let restitution = |index: usize| parameters.robots[index].model.restitution;
+    let model = |index: usize| &parameters.robots[index].model;
     let arm = |index: usize| point - state.bodies.motion(robot(index)).position;
-    let inverse_mass =
-        |index: usize| parameters.robots[index].inverse_effective_mass(arm(index), normal);
-    let (mean, inverse_mass) = match with {
+    let own = Response::of(&parameters.robots[first], arm(first), normal);
+    let (restitution, friction, response) = match with {
         Partner::Robot(other) => (
-            restitution(first).midpoint(restitution(other)),
-            inverse_mass(first) + inverse_mass(other),
+            model(first).restitution.midpoint(model(other).restitution),
+            model(first).friction.midpoint(model(other).friction),
+            own.with(Response::of(&parameters.robots[other], arm(other), normal)),
         ),
-        Partner::Wall(_) => (restitution(first).midpoint(WALL_RESTITUTION), inverse_mass(first)),
+        Partner::Wall(_) => (
+            model(first).restitution.midpoint(WALL_RESTITUTION),
+            model(first).friction.midpoint(WALL_FRICTION),
+            own,
+        ),
     };
-    let separating = separation_speed(state, contact, current_motion);
-    let impulse = normal * ((mean * closing - separating) / inverse_mass).max(0.0);
+    let velocity = relative_velocity(state, contact, current_motion);
+    let missing = restitution * closing - velocity.dot(normal);
+    if missing <= 0.0 {
+        return;
+    }
+    let slip = velocity.dot(normal.perp());
+    let [along, aside] = response.impulses(missing, slip, friction);
+    let impulse = normal * along + normal.perp() * aside;
     let own_arm = arm(first);
     if let Partner::Robot(other) = with {
         let arm = arm(other);
         state.bodies.apply_impulse(parameters, robot(other), impulse, arm);
     }
     state.bodies.apply_impulse(parameters, robot(first), -impulse, own_arm);
+}
+
+/// Speeds of a contact point by unit impulses, 1/kg.
+#[derive(Clone, Copy)]
+struct Response {
+    /// Along the normal by an impulse along it.
+    normal: f32,
+    /// Along the tangent by an impulse along it.
+    tangent: f32,
+    /// Along one by an impulse along the other.
+    coupling: f32,
+}
+
+impl Response {
+    /// That of a robot at `arm` (m) from its center.
+    fn of(robot: &RobotParameters, arm: Vector, normal: Vector) -> Self {
+        let tangent = normal.perp();
+        Self {
+            normal: robot.inverse_effective_mass(arm, normal),
+            tangent: robot.inverse_effective_mass(arm, tangent),
+            coupling: arm.perp_dot(normal) * arm.perp_dot(tangent) * robot.inverse_inertia,
+        }
+    }
+
+    /// That of two robots against each other.
+    fn with(self, other: Self) -> Self {
+        Self {
+            normal: self.normal + other.normal,
+            tangent: self.tangent + other.tangent,
+            coupling: self.coupling + other.coupling,
+        }
+    }
+
+    /// Impulses along the normal and the tangent (N s) that change the speed along the normal by `missing` (m/s) and
+    /// stop the `slip` (m/s), as far as `friction` can.
+    fn impulses(self, missing: f32, slip: f32, friction: f32) -> [f32; 2] {
+        let Self { normal, tangent, coupling } = self;
+        let determinant = normal * tangent - coupling * coupling;
+        let along = (tangent * missing + coupling * slip) / determinant;
+        let aside = -(coupling * missing + normal * slip) / determinant;
+        if aside.abs() <= friction * along {
+            return [along, aside];
+        }
+        let ratio = friction.copysign(aside);
+        // Friction on a long lever may press robots together; they do not jam.
+        let along = missing / (normal + coupling * ratio).max(0.5 * normal);
+        [along, ratio * along]
+    }
 }

@@ -7,6 +7,7 @@ updates the networks. `loop` runs one update after the other, `state` captures a
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -250,9 +251,18 @@ class Trainer:
         if not all(bool(part.isfinite().all()) for part in self.model.state_dict().values()):
             raise ValueError(
                 f"training diverged after {self.samples:,} samples: weights are NaN or infinite; "
-                f"lower ppo.learning_rate ({self.args.ppo.learning_rate:g}); the last checkpoint "
-                "is kept"
+                f"{self._advice()}; the last checkpoint is kept"
             )
+
+    def _advice(self) -> str:
+        """Cause of weights that are NaN or infinite, or advice."""
+        means = self.collector.reward_means.items()
+        causes = [name for name, mean in means if not math.isfinite(mean)]
+        if not np.isfinite(self.collector.observations).all():
+            causes.append("observations")
+        if causes:
+            return f"so are {', '.join(causes)} of task {self.task.name}"
+        return f"lower ppo.learning_rate ({self.args.ppo.learning_rate:g})"
 
     def network(self) -> Network:
         """Return the current policy in NumPy, as it plays and is measured."""
