@@ -92,9 +92,11 @@ def test_wrong_distributions_are_refused(
 
 def test_numbers_of_numpy_are_numbers() -> None:
     expected = drawn({"robot.mass": (0.5, 2.0), "ball.mass": 0.5})
-    got = drawn({"robot.mass": (np.float32(0.5), np.int64(2)), "ball.mass": np.float32(0.5)})
+    half: Any = np.float32(0.5)
+    two: Any = np.int64(2)
+    got = drawn({"robot.mass": (half, two), "ball.mass": half})
     assert np.array_equal(got, expected)
-    assert json.dumps(written({"robot.mass": ("normal", np.int64(1), np.float32(0.5))}))
+    assert json.dumps(written({"robot.mass": ("normal", two, half)}))
 
 
 def test_whole_numbers_of_senses_are_drawn_whole() -> None:

@@ -151,6 +151,6 @@ def reward_weights(
     for name, weight in value.items():
         if isinstance(weight, bool) or not isinstance(weight, Real):
             raise TypeError(f"reward_weights: expected a number for {name!r}, got {weight!r}")
-        if not abs(weight) <= np.finfo(np.float32).max:
+        if not abs(float(weight)) <= np.finfo(np.float32).max:
             raise ValueError(f"reward_weights: expected a finite number for {name!r}, got {weight}")
     return {**default, **value}
