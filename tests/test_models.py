@@ -37,7 +37,7 @@ UNORDERED_WHEELS = RobotModel("ssl_generic").to_json().replace("[60.0", "[160.0"
             "front_distance must not be beyond .*, got 0.2 m",
         ),
         (lambda: RobotModel.from_json(UNORDERED_WHEELS), r"in rising order.*, got \[160.0, 135.0"),
-        (lambda: Field.from_json("{}"), "expected the name of a preset as .preset., got none"),
+        (lambda: Field.from_json("{}"), "text is not a Field: missing field `name`"),
         (lambda: SimConfig(robot=[RobotModel("vss_440rpm")]), "each of 6 robots, got 1"),
         (lambda: MIXED.robot, "robots differ: use `robots`"),
         (lambda: SimConfig(n_blue=0, n_yellow=0).robot, "there are no robots"),
@@ -217,8 +217,11 @@ def test_files_of_senses_need_no_preset_and_of_robots_do(tmp_path: Path) -> None
     file.write_text('{"preset": 3}')
     with pytest.raises(ValueError, match=r"late\.json: preset: expected a preset's name, got 3"):
         Sensing(str(file))
+    file.write_text("{}")
+    with pytest.raises(ValueError, match=r"late\.json: text is not a Sensing: missing field"):
+        Sensing(str(file))
     file.write_text('{"mass": 0.2}')
-    with pytest.raises(ValueError, match=r'late\.json: expected the name of a preset as "preset"'):
+    with pytest.raises(ValueError, match=r"late\.json: text is not a RobotModel: missing field"):
         RobotModel(str(file))
 
 

@@ -99,10 +99,10 @@ pub(crate) trait Model: Sized + Clone + for<'py> FromPyObjectOwned<'py> {
                 let expected = "preset: expected a preset's name";
                 return Err(PyValueError::new_err(format!("{expected}, got {other}")));
             }
-            None if numbers.contains_key("name") => return Self::decoded(text)?.with(None),
-            None => Self::preset(OFF).map_err(|_| {
-                PyValueError::new_err("expected the name of a preset as \"preset\", got none")
-            })?,
+            None => match Self::preset(OFF) {
+                Ok(model) if !numbers.is_empty() && !numbers.contains_key("name") => model,
+                _ => return Self::decoded(text)?.with(None),
+            },
         };
         let mut given = Vec::new();
         for (key, value) in numbers {
