@@ -524,6 +524,19 @@ def test_an_external_referee_is_obeyed() -> None:
     assert wall.server.session.counts["referee: unreadable"] == 1
 
 
+def test_robots_of_policies_stand_when_an_external_referee_halts() -> None:
+    wall = Wall(referee="external", blue="strike")
+    wall.send("referee", referee_packet(referee_pb2.FORCE_START).SerializeToString())
+    wall.tick(150)
+    assert np.linalg.norm(wall.robots.velocity[0], axis=1).max() > 0.3
+    wall.send("referee", referee_packet(referee_pb2.HALT).SerializeToString())
+    wall.tick(200)
+    assert np.linalg.norm(wall.robots.velocity[0], axis=1).max() < 0.01
+    wall.send("referee", referee_packet(referee_pb2.FORCE_START).SerializeToString())
+    wall.tick(150)
+    assert np.linalg.norm(wall.robots.velocity[0], axis=1).max() > 0.3
+
+
 @pytest.mark.parametrize("division", ["A", "B"])
 def test_a_kick_of_an_external_referee_is_in_play_after_its_time(division: str) -> None:
     wall = Wall(referee="external", division=division)

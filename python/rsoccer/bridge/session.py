@@ -16,8 +16,10 @@ from rsoccer.bridge.refusals import Reason, Refusal
 from rsoccer.bridge.settings import BLUE_ON_POSITIVE_HALF, Settings
 from rsoccer.bridge.stand_ins import StandIns
 from rsoccer.bridge.team import Address, Team
+from rsoccer.game import Command
 from rsoccer.protocols.layout import TEAMS, WireLayout
 from rsoccer.protocols.placing import Placement
+from rsoccer.tasks.match import Match
 
 
 class Datagram(NamedTuple):
@@ -57,7 +59,7 @@ class Session:
             ValueError: an option of the match, or a policy that does not fit.
         """
         self.settings = settings
-        task = make_match(settings.league, settings.division, settings.robots, **settings.options)
+        task = _new_task(settings)
         self.stand_ins = StandIns(task, settings.blue, settings.yellow, settings.seed)
         self.arena = Arena(
             task,
@@ -99,6 +101,8 @@ class Session:
         if stand_ins.are_there and stand_ins.is_due(arena.ticks):
             arena.sense_for_policies()
             stand_ins.act(arena.play)
+            if self.settings.referee == "external" and arena.play.game.command[0] == Command.HALT:
+                stand_ins.stop()
         robots = arena.frame.robots
         for team in self.teams:
             stand_in = stand_ins.commands if stand_ins.plays(team.index) else None
@@ -144,6 +148,14 @@ class Session:
     def refresh_layout(self) -> None:
         """Take note of other robots."""
         self.layout = self._new_layout()
+
+
+def _new_task(settings: Settings) -> Match:
+    """The match task of some settings."""
+    try:
+        return make_match(settings.league, settings.division, settings.robots, **settings.options)
+    except TypeError as error:
+        raise ValueError(f"options: {str(error).rpartition('() ')[2]}") from error
 
 
 def is_loopback(address: Address) -> bool:

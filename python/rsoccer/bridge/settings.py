@@ -117,10 +117,7 @@ class Settings:
             TypeError: a value of a wrong type.
             ValueError: a value out of its range.
         """
-        if self.league not in LEAGUES:
-            raise ValueError(f"league: expected one of {LEAGUES}, got {self.league!r}")
-        if self.referee not in REFEREES:
-            raise ValueError(f"referee: expected one of {REFEREES}, got {self.referee!r}")
+        self._check_choices()
         if self.robots is not None:
             checks.integer("robots", self.robots, 1)
         given_elsewhere = OWN_OPTIONS[self.league]
@@ -135,3 +132,12 @@ class Settings:
             checks.boolean("blue_on_positive_half", self.blue_on_positive_half)
         checks.boolean("allow_remote_control", self.allow_remote_control)
         checks.integer("seed", self.seed, 0)
+
+    def _check_choices(self) -> None:
+        """Refuse unknown words."""
+        if self.league not in LEAGUES:
+            raise ValueError(f"league: expected one of {LEAGUES}, got {self.league!r}")
+        if self.referee not in REFEREES:
+            raise ValueError(f"referee: expected one of {REFEREES}, got {self.referee!r}")
+        if self.league == "vsss" and self.division != "B":
+            raise ValueError(f"division: expected none in the VSSS, got {self.division!r}")

@@ -103,6 +103,10 @@ class StandIns:
         self._commands = commands[0]
         return self._commands
 
+    def stop(self) -> None:
+        """Have all robots stand until the policies act again."""
+        self._commands = np.zeros_like(self._commands)
+
     @property
     def commands(self) -> Floats:
         """(robots, command) commands of the last call of `act`."""

@@ -170,6 +170,13 @@ class Serve(Imports):
             ports[name] = int(value)
         groups = dict(default_groups(self.league))
         groups |= dict(_entries("groups", self.groups, groups))
+        taken: dict[tuple[str, int], str] = {}
+        for name, number in ports.items():
+            other = taken.setdefault((groups.get(name, self.host), number), name)
+            if number and other != name:
+                raise ValueError(
+                    f"ports: expected others for {other} and {name}, got {number} twice"
+                )
         return Network(self.host, self.interface, ports, groups, self.ttl)
 
     def _speed(self) -> float | None:
@@ -185,6 +192,8 @@ class Serve(Imports):
         """Record, and show the page."""
         from rsoccer.bridge.recording import record
 
+        if len(set(self.record)) < len(self.record):
+            raise ValueError(f"record: expected each file once, got {' '.join(self.record)}")
         for path in self.record:
             stack.enter_context(record(server, path))
         if self.page is not None:

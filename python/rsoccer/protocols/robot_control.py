@@ -83,7 +83,11 @@ def _kick(row: CommandRow, command: simulation_pb2.RobotCommand, _: Floats) -> N
 
 def _dribble(row: CommandRow, command: simulation_pb2.RobotCommand, _: Floats) -> None:
     if command.HasField("dribbler_speed"):
-        row.dribble(command.dribbler_speed / FULL_DRIBBLER_RPM)
+        speed = command.dribbler_speed
+        if speed < 0:
+            message = f"dribbler_speed: expected 0 or above, got {speed:g}"
+            raise MessageError(Code.OUT_OF_RANGE, message)
+        row.dribble(speed / FULL_DRIBBLER_RPM)
 
 
 def to_robot_control(
