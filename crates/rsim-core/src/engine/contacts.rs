@@ -1,5 +1,7 @@
 //! Contacts with an impulse in the last tick, as both contact solvers report them.
 
+use super::WALL_FRICTION;
+use crate::body_parameters::BodyParameters;
 use crate::math::Vector;
 
 /// The other party of a contact.
@@ -7,6 +9,15 @@ use crate::math::Vector;
 pub(crate) enum Partner {
     Wall(usize),
     Robot(usize),
+}
+
+impl Partner {
+    /// Coulomb friction of a robot against it.
+    pub(crate) fn friction(self, robot: usize, parameters: &BodyParameters) -> f32 {
+        let of = |index: usize| parameters.robots[index].model.friction;
+        let other = if let Self::Robot(other) = self { of(other) } else { WALL_FRICTION };
+        of(robot).midpoint(other)
+    }
 }
 
 /// A contact of the ball with an impulse in the last tick.

@@ -35,7 +35,7 @@ const SUB_STEPS: usize = 4;
 
 /// Friction of a wall against robots, averaged with the robot's own: that of robot against robot. No
 /// value is published for a robot that slides along a wall.
-pub(crate) const WALL_FRICTION: f32 = 0.2;
+const WALL_FRICTION: f32 = 0.2;
 
 /// Solver of one match, and its settings.
 #[derive(Clone, Serialize, Deserialize)]

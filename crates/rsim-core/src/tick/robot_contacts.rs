@@ -3,7 +3,7 @@
 use crate::blocks::robot;
 use crate::bodies::Undisturbed;
 use crate::body_parameters::{BodyParameters, RobotParameters};
-use crate::engine::{Partner, RobotContact, WALL_FRICTION};
+use crate::engine::{Partner, RobotContact};
 use crate::math::Vector;
 use crate::state::State;
 
@@ -95,28 +95,23 @@ fn relative_velocity(
 /// yet, so most of a collision may be left.
 fn bounce(state: &mut State, parameters: &BodyParameters, contact: &RobotContact, closing: f32) {
     let RobotContact { robot: first, with, normal, point } = *contact;
-    let model = |index: usize| &parameters.robots[index].model;
+    let restitution = |index: usize| parameters.robots[index].model.restitution;
     let arm = |index: usize| point - state.bodies.motion(robot(index)).position;
     let own = Response::of(&parameters.robots[first], arm(first), normal);
-    let (restitution, friction, response) = match with {
+    let (mean, response) = match with {
         Partner::Robot(other) => (
-            model(first).restitution.midpoint(model(other).restitution),
-            model(first).friction.midpoint(model(other).friction),
+            restitution(first).midpoint(restitution(other)),
             own.with(Response::of(&parameters.robots[other], arm(other), normal)),
         ),
-        Partner::Wall(_) => (
-            model(first).restitution.midpoint(WALL_RESTITUTION),
-            model(first).friction.midpoint(WALL_FRICTION),
-            own,
-        ),
+        Partner::Wall(_) => (restitution(first).midpoint(WALL_RESTITUTION), own),
     };
     let velocity = relative_velocity(state, contact, current_motion);
-    let missing = restitution * closing - velocity.dot(normal);
+    let missing = mean * closing - velocity.dot(normal);
     if missing <= 0.0 {
         return;
     }
     let slip = velocity.dot(normal.perp());
-    let [along, aside] = response.impulses(missing, slip, friction);
+    let [along, aside] = response.impulses(missing, slip, with.friction(first, parameters));
     let impulse = normal * along + normal.perp() * aside;
     let own_arm = arm(first);
     if let Partner::Robot(other) = with {

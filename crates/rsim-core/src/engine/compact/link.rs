@@ -9,7 +9,6 @@ use super::impulses::Impulses;
 use super::manifold::{Manifold, Window};
 use super::rectangle::Rectangle;
 use crate::blocks::BALL;
-use crate::engine::WALL_FRICTION;
 use crate::engine::ball_contact::BallRules;
 use crate::engine::contacts::Partner;
 use crate::engine::joints::Ball;
@@ -58,18 +57,16 @@ impl Link {
     /// end of `bodies`.
     pub(super) fn of(pair: &Pair, rules: &BallRules, bodies: &mut Vec<SolverBody>) -> Option<Self> {
         let one = pair.one;
-        let of = |body: usize| rules.parameters.robots[body - 1].model.friction;
-        let (first, second, outlines, with, met_friction) = match pair.other {
+        let (first, second, outlines, with) = match pair.other {
             Other::Wall(index, place) => {
                 let outlines = [place.outline, one.outline];
-                (bodies.len(), one.body, outlines, Partner::Wall(index), WALL_FRICTION)
+                (bodies.len(), one.body, outlines, Partner::Wall(index))
             }
             Other::Body(other) => {
                 // The first never is the ball.
                 let (first, second) = if other.body == BALL { (one, other) } else { (other, one) };
                 let outlines = [first.outline, second.outline];
-                let with = Partner::Robot(first.body - 1);
-                (first.body, second.body, outlines, with, of(first.body))
+                (first.body, second.body, outlines, Partner::Robot(first.body - 1))
             }
         };
         let is_ball = second == BALL;
@@ -80,7 +77,7 @@ impl Link {
             bodies.push(SolverBody::of_wall(place));
         }
         // Friction of the ball is resolved elsewhere.
-        let friction = if is_ball { 0.0 } else { met_friction.midpoint(of(second)) };
+        let friction = if is_ball { 0.0 } else { with.friction(second - 1, rules.parameters) };
         let radii = outlines.map(|outline| outline.bounding_radius());
         let (impulses, total) = (Impulses::default(), Total::default());
         let (key, is_constrained) = (key(pair), false);
