@@ -27,8 +27,8 @@ pub(super) fn resolve(
     undisturbed: &[Undisturbed],
 ) {
     for contact in contacts {
-        let closing =
-            -separation_speed(state, contact, |_, index| Undisturbed::motion(undisturbed, index));
+        let meeting = Meeting::of(state, contact);
+        let closing = -meeting.separation_speed(|index| Undisturbed::motion(undisturbed, index));
         if let Partner::Robot(other) = contact.with {
             let pair = [contact.robot, other];
             if (contact.robot < n_blue) != (other < n_blue) {
@@ -38,12 +38,14 @@ pub(super) fn resolve(
                 state.bodies.add_collision(index, closing);
             }
         }
+        if closing <= MIN_BOUNCE_SPEED {
+            continue;
+        }
         // Wheels that press a pair together, and those that resist, add to the closing speed of each tick.
         // A closing speed that is mostly theirs is that of a push, which does not bounce.
-        let pressed =
-            -separation_speed(state, contact, |_, index| Undisturbed::gain(undisturbed, index));
-        if closing > MIN_BOUNCE_SPEED.max(2.0 * pressed) {
-            bounce(state, parameters, contact, closing);
+        let pressed = -meeting.separation_speed(|index| Undisturbed::gain(undisturbed, index));
+        if closing > 2.0 * pressed {
+            meeting.bounce(state, parameters, closing);
         }
     }
 }
@@ -51,9 +53,10 @@ pub(super) fn resolve(
 /// Bodies of the robots in sustained contact, one bit each: the partner of a contact in the last tick has not
 /// separated from them.
 pub(super) fn sustained(state: &State, contacts: &[RobotContact]) -> u64 {
-    let lasting = contacts
-        .iter()
-        .filter(|contact| separation_speed(state, contact, current_motion) < SEPARATING);
+    let lasting = contacts.iter().filter(|contact| {
+        let motion = |index| current_motion(state, index);
+        Meeting::of(state, contact).separation_speed(motion) < SEPARATING
+    });
     lasting.fold(0, |all, contact| {
         let other = if let Partner::Robot(other) = contact.with { 1 << robot(other) } else { 0 };
         all | 1 << robot(contact.robot) | other
@@ -66,59 +69,77 @@ fn current_motion(state: &State, index: usize) -> (Vector, f32) {
     (motion.velocity, motion.angular_velocity)
 }
 
-/// Separation speed at a contact, m/s, with the velocities and angular velocities that `motion_of` returns.
-fn separation_speed(
-    state: &State,
-    contact: &RobotContact,
-    motion_of: impl Fn(&State, usize) -> (Vector, f32),
-) -> f32 {
-    relative_velocity(state, contact, motion_of).dot(contact.normal)
+/// A contact, and where it is on both parties.
+#[derive(Clone, Copy)]
+struct Meeting<'a> {
+    contact: &'a RobotContact,
+    /// From the centers of the robot and of its partner to the point, m. A wall has none.
+    arms: [Vector; 2],
 }
 
-/// Velocity of the partner at a contact relative to that of the robot, m/s.
-fn relative_velocity(
-    state: &State,
-    contact: &RobotContact,
-    motion_of: impl Fn(&State, usize) -> (Vector, f32),
-) -> Vector {
-    let at = |index: usize| {
-        let (velocity, angular_velocity) = motion_of(state, index);
-        let arm = contact.point - state.bodies.motion(robot(index)).position;
-        velocity + arm.perp() * angular_velocity
-    };
-    let with = if let Partner::Robot(other) = contact.with { at(other) } else { Vector::ZERO };
-    with - at(contact.robot)
-}
+impl<'a> Meeting<'a> {
+    fn of(state: &State, contact: &'a RobotContact) -> Self {
+        let arm = |index: usize| contact.point - state.bodies.motion(robot(index)).position;
+        let met = if let Partner::Robot(other) = contact.with { arm(other) } else { Vector::ZERO };
+        Self { contact, arms: [arm(contact.robot), met] }
+    }
 
-/// Applies the impulse after which a pair separates at its restitution times the closing speed, m/s, with the friction
-/// that it brings. In the last sub-step of a tick the solver slows two robots down only as far as they do not overlap
-/// yet, so most of a collision may be left.
-fn bounce(state: &mut State, parameters: &BodyParameters, contact: &RobotContact, closing: f32) {
-    let RobotContact { robot: first, with, normal, point } = *contact;
-    let restitution = |index: usize| parameters.robots[index].model.restitution;
-    let arm = |index: usize| point - state.bodies.motion(robot(index)).position;
-    let own = Response::of(&parameters.robots[first], arm(first), normal);
-    let (mean, response) = match with {
-        Partner::Robot(other) => (
-            restitution(first).midpoint(restitution(other)),
-            own.with(Response::of(&parameters.robots[other], arm(other), normal)),
-        ),
-        Partner::Wall(_) => (restitution(first).midpoint(WALL_RESTITUTION), own),
-    };
-    let velocity = relative_velocity(state, contact, current_motion);
-    let missing = mean * closing - velocity.dot(normal);
-    if missing <= 0.0 {
-        return;
+    /// Separation speed, m/s, with the velocities and angular velocities that `motion_of` returns.
+    fn separation_speed(&self, motion_of: impl Fn(usize) -> (Vector, f32)) -> f32 {
+        self.relative_velocity(motion_of).dot(self.contact.normal)
     }
-    let slip = velocity.dot(normal.perp());
-    let [along, aside] = response.impulses(missing, slip, with.friction(first, parameters));
-    let impulse = normal * along + normal.perp() * aside;
-    let own_arm = arm(first);
-    if let Partner::Robot(other) = with {
-        let arm = arm(other);
-        state.bodies.apply_impulse(parameters, robot(other), impulse, arm);
+
+    /// Velocity of the partner relative to that of the robot, m/s.
+    fn relative_velocity(&self, motion_of: impl Fn(usize) -> (Vector, f32)) -> Vector {
+        let at = |index: usize, arm: Vector| {
+            let (velocity, angular_velocity) = motion_of(index);
+            velocity + arm.perp() * angular_velocity
+        };
+        let Self { contact, arms: [own, met] } = *self;
+        let with =
+            if let Partner::Robot(other) = contact.with { at(other, met) } else { Vector::ZERO };
+        with - at(contact.robot, own)
     }
-    state.bodies.apply_impulse(parameters, robot(first), -impulse, own_arm);
+
+    /// Applies the impulse after which a pair separates at its restitution times the closing speed, m/s, with the
+    /// friction that it brings. In the last sub-step of a tick the solver slows two robots down only as far as they do
+    /// not overlap yet, so most of a collision may be left.
+    fn bounce(&self, state: &mut State, parameters: &BodyParameters, closing: f32) {
+        let Self { contact, arms: [own_arm, met_arm] } = *self;
+        let RobotContact { robot: first, with, normal, .. } = *contact;
+        let velocity = self.relative_velocity(|index| current_motion(state, index));
+        let missing = self.restitution(parameters) * closing - velocity.dot(normal);
+        if missing <= 0.0 {
+            return;
+        }
+        let slip = velocity.dot(normal.perp());
+        let friction = with.friction(first, parameters);
+        let [along, aside] = self.response(parameters).impulses(missing, slip, friction);
+        let impulse = normal * along + normal.perp() * aside;
+        if let Partner::Robot(other) = with {
+            state.bodies.apply_impulse(parameters, robot(other), impulse, met_arm);
+        }
+        state.bodies.apply_impulse(parameters, robot(first), -impulse, own_arm);
+    }
+
+    fn restitution(&self, parameters: &BodyParameters) -> f32 {
+        let of = |index: usize| parameters.robots[index].model.restitution;
+        let met = if let Partner::Robot(other) = self.contact.with {
+            of(other)
+        } else {
+            WALL_RESTITUTION
+        };
+        of(self.contact.robot).midpoint(met)
+    }
+
+    fn response(&self, parameters: &BodyParameters) -> Response {
+        let Self { contact, arms: [own_arm, met_arm] } = *self;
+        let of = |index: usize, arm: Vector| {
+            Response::of(&parameters.robots[index], arm, contact.normal)
+        };
+        let own = of(contact.robot, own_arm);
+        if let Partner::Robot(other) = contact.with { own.with(of(other, met_arm)) } else { own }
+    }
 }
 
 /// Speeds of a contact point by unit impulses, 1/kg.

@@ -69,6 +69,17 @@ impl Relative {
     }
 }
 
+/// Impulses along the normal that a pass gives.
+struct Push {
+    /// Of all points, and by how much they changed, N s.
+    total: f32,
+    change: f32,
+    /// Angular impulses on both bodies by the change, N m s.
+    turns: [f32; 2],
+    /// By how much the speed at a point changed, m/s.
+    speed: f32,
+}
+
 impl Constraint {
     /// The constraint of `manifold` between two bodies, which starts from `impulses`.
     pub(super) fn new(
@@ -149,33 +160,13 @@ impl Constraint {
     /// along the normal changed speeds at the points, m/s.
     pub(super) fn solve(&mut self, bodies: &mut [SolverBody], pass: &Pass) -> f32 {
         let relative = self.relative(bodies);
-        let [one, two] = &mut self.points;
-        let old = [one.impulse, two.impulse];
-        let is_idle = old[0] <= 0.0 && old[1] <= 0.0;
-        let row = pass.row(relative.closing(one.levers), one.separation);
-        let new = if self.count == 1 {
-            let total = (one.response * old[0] - row.speed) * (one.mass * row.mass_scale);
-            [total.max(0.0), 0.0]
+        let pushed = if self.count == 1 {
+            self.push_at_one(&relative, pass)
         } else {
-            let other = pass.row(relative.closing(two.levers), two.separation);
-            if is_idle && row.speed >= 0.0 && other.speed >= 0.0 {
-                return 0.0;
-            }
-            let offsets = [
-                row.speed - one.response * old[0] - self.coupling * old[1],
-                other.speed - two.response * old[1] - self.coupling * old[0],
-            ];
-            let diagonal = [one.response * row.stretch, two.response * other.stretch];
-            solve_two(diagonal, self.coupling, offsets)
+            self.push_at_two(&relative, pass)
         };
-        if is_idle && new[0] <= 0.0 && new[1] <= 0.0 {
-            return 0.0;
-        }
-        [one.impulse, two.impulse] = new;
-        let changes = [new[0] - old[0], new[1] - old[1]];
-        let speeds = [changes[0] * one.response, changes[1] * two.response];
-        let mut turns = self.turns(changes);
-        let mut change = 0.0;
+        let Some(Push { total, change, mut turns, speed }) = pushed else { return 0.0 };
+        let mut tangent = 0.0;
         let Friction { coefficient, impulse, levers, mass } = self.friction;
         if coefficient > 0.0 {
             // The impulses along the normal change the slip only by turning the bodies.
@@ -186,14 +177,58 @@ impl Constraint {
             ];
             let slip = relative.aside + angular_velocities[1] * levers[1]
                 - angular_velocities[0] * levers[0];
-            let limit = coefficient * (new[0] + new[1]);
-            let total = (impulse - mass * slip).clamp(-limit, limit);
-            self.friction.impulse = total;
-            change = total - impulse;
-            turns = [turns[0] + levers[0] * change, turns[1] + levers[1] * change];
+            let limit = coefficient * total;
+            self.friction.impulse = (impulse - mass * slip).clamp(-limit, limit);
+            tangent = self.friction.impulse - impulse;
+            turns = [turns[0] + levers[0] * tangent, turns[1] + levers[1] * tangent];
         }
-        self.apply(bodies, changes[0] + changes[1], change, turns);
-        speeds[0].abs().max(speeds[1].abs())
+        self.apply(bodies, change, tangent, turns);
+        speed
+    }
+
+    /// Changes the impulse of a contact of one point. Returns `None` if it had none and gets none.
+    fn push_at_one(&mut self, relative: &Relative, pass: &Pass) -> Option<Push> {
+        let point = &mut self.points[0];
+        let old = point.impulse;
+        let row = pass.row(relative.closing(point.levers), point.separation);
+        let total = ((point.response * old - row.speed) * (point.mass * row.mass_scale)).max(0.0);
+        if old <= 0.0 && total <= 0.0 {
+            return None;
+        }
+        point.impulse = total;
+        let change = total - old;
+        let turns = point.levers.map(|lever| lever * change);
+        Some(Push { total, change, turns, speed: (change * point.response).abs() })
+    }
+
+    /// Changes the impulses of a contact of two points. Returns `None` if both had none and get none.
+    fn push_at_two(&mut self, relative: &Relative, pass: &Pass) -> Option<Push> {
+        let [one, two] = &mut self.points;
+        let old = [one.impulse, two.impulse];
+        let is_idle = old[0] <= 0.0 && old[1] <= 0.0;
+        let row = pass.row(relative.closing(one.levers), one.separation);
+        let other = pass.row(relative.closing(two.levers), two.separation);
+        if is_idle && row.speed >= 0.0 && other.speed >= 0.0 {
+            return None;
+        }
+        let offsets = [
+            row.speed - one.response * old[0] - self.coupling * old[1],
+            other.speed - two.response * old[1] - self.coupling * old[0],
+        ];
+        let diagonal = [one.response * row.stretch, two.response * other.stretch];
+        let new = solve_two(diagonal, self.coupling, offsets);
+        if is_idle && new[0] <= 0.0 && new[1] <= 0.0 {
+            return None;
+        }
+        [one.impulse, two.impulse] = new;
+        let changes = [new[0] - old[0], new[1] - old[1]];
+        let speeds = [changes[0] * one.response, changes[1] * two.response];
+        Some(Push {
+            total: new[0] + new[1],
+            change: changes[0] + changes[1],
+            turns: self.turns(changes),
+            speed: speeds[0].abs().max(speeds[1].abs()),
+        })
     }
 
     fn relative(&self, bodies: &[SolverBody]) -> Relative {

@@ -37,11 +37,15 @@ impl CompactSolver {
         let scale = if self.time > 0.0 { time / self.time } else { 0.0 };
         bodies.list_warm_starts(self.stored, warm_starts);
         links.clear();
+        // Both lists are in the order of their keys.
+        let mut stored = warm_starts.iter().peekable();
         for pair in near {
             let Some(mut link) = Link::of(pair, rules, solver_bodies) else { continue };
-            let stored = warm_starts.iter().find(|stored| u32::from(stored.key) == link.key);
-            let stored = stored.filter(|_| !(ball_is_lighter && link.second == BALL));
-            if let Some(WarmStart { features, normals, tangent, .. }) = stored {
+            debug_assert!(links.last().is_none_or(|last: &Link| last.key < link.key));
+            while stored.next_if(|stored| u32::from(stored.key) < link.key).is_some() {}
+            let found = stored.next_if(|stored| u32::from(stored.key) == link.key);
+            let found = found.filter(|_| !(ball_is_lighter && link.second == BALL));
+            if let Some(WarmStart { features, normals, tangent, .. }) = found {
                 link.impulses = Impulses {
                     normals: [0, 1]
                         .map(|point| (u32::from(features[point]), normals[point] * scale)),
