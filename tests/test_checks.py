@@ -24,9 +24,10 @@ from tests.helpers import Crowd, begun, same, zeros
         (np.full((5, 6, 2), np.nan, np.float32), ValueError, r"got nan at \(0, 0, 0\)"),
         (np.full((5, 6, 2), np.inf), ValueError, "actions: expected finite numbers, got inf"),
         ([["left"] * 2] * 6, TypeError, "actions: expected a floating-point array"),
-        (None, TypeError, "actions: expected a floating-point array"),
+        (None, TypeError, "actions: expected a floating-point array, got NoneType"),
+        ([[[0.0], [0.0, 0.0]]], ValueError, "actions: .* got a list whose parts differ in length"),
     ],
-    ids=["axes", "worlds", "int", "nan", "inf", "text", "none"],
+    ids=["axes", "worlds", "int", "nan", "inf", "text", "none", "ragged"],
 )
 def test_wrong_actions_are_refused_without_a_change(
     actions: object, error: type[Exception], message: str

@@ -1,4 +1,4 @@
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
@@ -9,7 +9,7 @@ from rsoccer.controllers import Controllers
 from rsoccer.evaluate import evaluate
 from rsoccer.policies.base import Memory, PolicyInput
 from rsoccer.rng import WorldRng
-from rsoccer.tasks import VssMulti, VssSelfPlay
+from rsoccer.tasks import SslSelfPlay, VssMulti, VssSelfPlay
 from tests.helpers import Crowd, begun, same, zeros
 
 
@@ -71,14 +71,66 @@ def test_matches_without_learners_play_on() -> None:
     assert outcome.truncated.all()
 
 
-def test_a_policy_of_the_wrong_shape_is_named() -> None:
-    class Short(Mirror):
-        def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
-            return np.zeros(inputs.action_shape[:2], np.float32)
+class Wrong(Mirror):
+    """Returns the given value in place of actions."""
 
-    matches = begun(VssSelfPlay(), controllers={"blue": Short()})
-    with pytest.raises(ValueError, match=r"Short: expected actions \(5, 3, 2\), got \(5, 3\)"):
+    def __init__(self, value: Any) -> None:  # noqa: ANN401  (any mistake)
+        super().__init__()
+        self._value = value
+
+    def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
+        return self._value  # type: ignore[no-any-return]
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "message"),
+    [
+        (np.zeros((5, 3), np.float32), ValueError, r"expected shape \(5, 3, 2\), got \(5, 3\)"),
+        (np.ones((5, 3, 2), np.int64), TypeError, "expected a floating-point array, got int64"),
+        (np.full((5, 3, 2), np.nan, np.float32), ValueError, r".* got nan at \(0, 0, 0\)"),
+        (np.full((5, 3, 2), -np.inf), ValueError, r".* got -inf at \(0, 0, 0\)"),
+        (None, TypeError, "expected a floating-point array, got NoneType"),
+        (0.5, ValueError, r"expected shape \(5, 3, 2\), got \(\)"),
+        ("left", TypeError, "expected a floating-point array, got <U4"),
+        ([[1.0], [1.0, 2.0]], ValueError, "expected an array, got a list whose parts differ"),
+    ],
+    ids=["shape", "int", "nan", "infinity", "none", "number", "text", "ragged"],
+)
+def test_what_a_policy_returns_in_place_of_actions_is_named(
+    value: object, error: type[Exception], message: str
+) -> None:
+    matches = begun(VssSelfPlay(), controllers={"blue": Wrong(value)})
+    with pytest.raises(error, match=rf"Wrong\.act: {message}"):
         matches.step(zeros(matches))
+
+
+@pytest.mark.parametrize("value", [None, 0.5, "left"])
+def test_wrong_results_are_named_where_actions_may_be_left_out(value: object) -> None:
+    task = SslSelfPlay(chip_kick=True)
+    assert task.optional_action_size
+    matches = begun(task, controllers={"blue": Wrong(value)})
+    with pytest.raises((TypeError, ValueError), match=r"Wrong\.act: expected"):
+        matches.step(zeros(matches))
+
+
+def test_actions_of_a_policy_are_cast_and_clipped() -> None:
+    given = begun(VssSelfPlay(), controllers={"blue": Wrong(np.full((5, 3, 2), 1e300).tolist())})
+    full = begun(VssSelfPlay(), controllers={"blue": Wrong(np.ones((5, 3, 2), np.float32))})
+    for matches in (given, full):
+        matches.step(zeros(matches))
+    assert same(given.frame.rows, full.frame.rows)
+
+
+@pytest.mark.parametrize("observes", [None, "observations"])
+def test_a_policy_says_what_it_observes(observes: str | None) -> None:
+    got = "none" if observes is None else repr(observes)
+    silent = type("Silent", (Policy,), {"act": Mirror.act})
+    policy = silent()
+    if observes is not None:
+        policy.observes = observes
+    message = rf"Silent\.observes: expected one of \['nothing', 'view', .*\], got {got}"
+    with pytest.raises(ValueError, match=message):
+        Matches(VssSelfPlay(), 5, controllers={"blue": policy})
 
 
 class Wheels(CommandPolicy):

@@ -158,11 +158,11 @@ def floats(name: str, value: object, shape: tuple[int, ...]) -> Floats:
 
     Raises:
         TypeError: not an array of a floating-point type.
-        ValueError: another shape, NaN or infinity.
+        ValueError: another shape, rows of different lengths, NaN or infinity.
     """
-    array = np.asarray(value)
+    array = as_array(name, value)
     if array.dtype.kind != "f":
-        raise TypeError(f"{name}: expected a floating-point array, got {array.dtype}")
+        raise TypeError(f"{name}: expected a floating-point array, got {_kind(array)}")
     if array.shape != shape:
         raise ValueError(f"{name}: expected shape {shape}, got {array.shape}")
     if not np.isfinite(array).all():
@@ -171,26 +171,49 @@ def floats(name: str, value: object, shape: tuple[int, ...]) -> Floats:
     return np.ascontiguousarray(array, np.float32)
 
 
-def actions(value: object, shape: tuple[int, ...]) -> Floats:
+def as_array(name: str, value: object) -> Array:
+    """Return an array of any type and shape.
+
+    Args:
+        name: name of the argument, for the error.
+        value: the argument.
+
+    Raises:
+        ValueError: lists whose parts differ in length.
+    """
+    try:
+        return np.asarray(value)
+    except ValueError:
+        got = f"a {type(value).__name__} whose parts differ in length"
+        raise ValueError(f"{name}: expected an array, got {got}") from None
+
+
+def _kind(array: Array) -> str:
+    """Type of the numbers of an array, or of the objects in it."""
+    return type(array.flat[0]).__name__ if array.dtype.kind == "O" else str(array.dtype)
+
+
+def actions(value: object, shape: tuple[int, ...], name: str = "actions") -> Floats:
     """Validate actions and clip them to [-1, 1].
 
     Args:
         value: the argument.
         shape: required shape (n, agents, action).
+        name: name of the argument, for the error.
 
     Returns:
         Clipped float32 array.
 
     Raises:
         TypeError: not an array of a floating-point type.
-        ValueError: another shape, NaN or infinity.
+        ValueError: another shape, rows of different lengths, NaN or infinity.
     """
     if (clipped := _core.clip_actions(value, shape)) is not None:
         return clipped
-    array = np.asarray(value)
+    array = as_array(name, value)
     if array.dtype == np.float64:  # before the cast, which would turn the largest to infinity
         array = np.where(np.isfinite(array), np.clip(array, -1.0, 1.0), array)
-    return np.minimum(np.maximum(floats("actions", array, shape), -1.0), 1.0)
+    return np.minimum(np.maximum(floats(name, array, shape), -1.0), 1.0)
 
 
 def mask(value: object, n: int) -> Mask:

@@ -12,7 +12,7 @@ from rsoccer._core import SimConfig
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.frame import team_of
 from rsoccer.policies import make_policy
-from rsoccer.policies.base import CommandPolicy, MatchState, Memory, Policy, PolicyInput
+from rsoccer.policies.base import CommandPolicy, MatchState, Memory, Policy, PolicyInput, actions_of
 from rsoccer.rng import WorldRng
 from rsoccer.task import LEARN, Learn, Play, Task
 from rsoccer.view import SIDES
@@ -62,16 +62,12 @@ class PolicyGroup:
             playing: (n,) worlds whose actions matter; None for all.
 
         Raises:
-            ValueError: the policy returned actions of another shape.
+            TypeError: the policy returned no array of a floating-point type.
+            ValueError: it returned actions of another shape, or that are not finite.
         """
         shape = (len(actions), len(self.robots), actions.shape[2])
         inputs = self._inputs(play, observations, shape, playing)
-        chosen = inputs.completed(self.policy.act(inputs, self.rng, self.memory))
-        if chosen.shape != shape:
-            raise ValueError(
-                f"{type(self.policy).__name__}: expected actions {shape}, got {chosen.shape}"
-            )
-        actions[:, self._written] = np.minimum(np.maximum(chosen, -1.0), 1.0)
+        actions[:, self._written] = actions_of(self.policy, inputs, self.rng, self.memory)
 
     def command(self, play: Play, observations: Floats, commands: Floats) -> None:
         """Replace the commands of the group's robots, of a `CommandPolicy`.

@@ -11,6 +11,7 @@ from typing import TypeAlias
 import numpy as np
 from gymnasium.spaces import Box, Discrete
 
+from rsoccer import checks
 from rsoccer.arrays import Array, Floats
 from rsoccer.global_state import LIMIT, StateEncoder
 from rsoccer.history import ObservationStack
@@ -85,7 +86,7 @@ def action_vectors(task: Task, actions: Array) -> Array:
     table = task.action_table
     if table is None:
         return actions
-    indices = np.asarray(actions)
+    indices = checks.as_array("actions", actions)
     if indices.dtype.kind not in "iu":
         raise TypeError(f"actions: expected whole numbers, got {indices.dtype}")
     outside = (indices < 0) | (indices >= len(table))

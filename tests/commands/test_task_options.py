@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from rsoccer import cli
-from rsoccer.commands.task_options import named_task
+from rsoccer.commands.task_options import RANDOMIZATION, named_task
 from rsoccer.replay import Replay
 from rsoccer.tasks import SslGoToBall
 
@@ -47,6 +47,22 @@ def test_a_number_in_the_place_of_a_policy_is_one_line(
     error = capsys.readouterr().err
     assert error.startswith("rsoccer: task_options: opponent: expected a policy's name ")
     assert error.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("word", "value"),
+    [
+        ("0.9,1.1", (0.9, 1.1)),
+        ("normal,1.0,0.1", ("normal", 1.0, 0.1)),
+        ("log_uniform, 0.5, 2", ("log_uniform", 0.5, 2)),
+        ("['normal', 1.0, 0.1]", ["normal", 1.0, 0.1]),
+        ("1.5", 1.5),
+        ("normal,one,two", "normal,one,two"),
+    ],
+)
+def test_distributions_as_words(word: str, value: object) -> None:
+    read = RANDOMIZATION.instance_from_str([f"robot.mass={word}"])
+    assert read == {"robot.mass": value}
 
 
 def test_a_recorded_match_has_them(tmp_path: Path) -> None:

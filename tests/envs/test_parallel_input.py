@@ -173,7 +173,7 @@ WRONG_ACTIONS = {
         "'blue_0'.*floating-point.*int",
     ),
     "complex": (actions_with(blue_0=np.zeros(2, complex)), TypeError, "'blue_0'.*complex"),
-    "none": ({**actions_with(), "blue_0": None}, TypeError, "'blue_0'.*object"),
+    "none": ({**actions_with(), "blue_0": None}, TypeError, "'blue_0'.*NoneType"),
     "NaN": (
         actions_with(yellow_2=np.array([0.0, np.nan])),
         ValueError,

@@ -110,8 +110,8 @@ WRONG_ACTIONS = {
     "scalar": (np.float32(0), ValueError, r"\(2,\), got \(\)"),
     "texts": (np.array(["1", "0"]), TypeError, "floating-point.*<U1"),
     "integers": (np.zeros(2, int), TypeError, "floating-point.*int"),
-    "none": (None, ValueError, r"\(2,\), got \(\)"),
-    "NaN": (np.array([0.0, np.nan]), ValueError, "finite numbers, got nan"),
+    "none": (None, TypeError, "floating-point.*NoneType"),
+    "NaN": (np.array([0.0, np.nan]), ValueError, r"finite numbers, got nan at \(1,\)"),
     "infinite": (np.array([-np.inf, 0.0]), ValueError, "finite numbers, got -inf"),
 }
 WRONG_INDICES = {

@@ -98,7 +98,7 @@ WRONG_ACTIONS = {
     "one match": (np.zeros(2, np.float32), ValueError, r"\(3, 2\), got \(2,\)"),
     "too many": (np.zeros((4, 2), np.float32), ValueError, r"\(3, 2\), got \(4, 2\)"),
     "integers": (np.zeros((N, 2), int), TypeError, "floating-point.*int"),
-    "NaN": (np.full((N, 2), np.nan), ValueError, "finite numbers, got nan"),
+    "NaN": (np.full((N, 2), np.nan), ValueError, r"finite numbers, got nan at \(0, 0\)"),
 }
 WRONG_INDICES = {
     "fractions": (np.zeros(N), TypeError, "expected whole numbers, got float64"),

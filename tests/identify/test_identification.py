@@ -1,6 +1,7 @@
 """Robots, balls and delays whose numbers are known are identified from their logs."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -248,6 +249,19 @@ def test_bad_arguments_are_refused(vss_log: Log) -> None:
         identify(vss_log, ball=3)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="clocks: "):
         identify(vss_log, clocks=3)
+
+
+@pytest.mark.parametrize("clocks", [1, 2])
+def test_a_log_without_driving_still_shows_the_ball(ssl_log: Log, clocks: int) -> None:
+    """Robots that stand and kick have commands."""
+    still = {
+        robot: replace(commands, wheels=0.0 * commands.wheels)
+        for robot, commands in ssl_log.commands.items()
+    }
+    found = identify(replace(ssl_log, commands=still), clocks=clocks)
+    assert found.estimate("latency").hint == "needs commands to drive"
+    assert found.estimate("rolling_deceleration").is_identified
+    assert found.estimate("kick_gain").is_identified == (clocks == 1)
 
 
 def test_logs_that_show_nothing_are_refused(vss_log: Log) -> None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import ast
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any
 
@@ -13,20 +14,35 @@ from rsoccer.registry import task_with_options
 from rsoccer.task import Task
 
 
-def _values_by_name(argument: str) -> PrimitiveConstructorSpec[Mapping[str, Any]]:
+def _values_by_name(
+    parse: Callable[[Sequence[str]], dict[str, Any]],
+) -> PrimitiveConstructorSpec[Mapping[str, Any]]:
     """Type of an option with values by name, for tyro."""
     return PrimitiveConstructorSpec[Mapping[str, Any]](
         nargs="*",
         metavar="[NAME=VALUE [NAME=VALUE ...]]",
-        instance_from_str=partial(parse_options, argument),
+        instance_from_str=parse,
         is_instance=lambda value: isinstance(value, Mapping),
         str_from_instance=lambda options: [f"{name}={value!r}" for name, value in options.items()],
     )
 
 
-TASK_OPTIONS = _values_by_name("task_options")
+def _parse_ranges(words: Sequence[str]) -> dict[str, Any]:
+    """Distributions by name; one of a kind is that and its numbers, as in `normal,1.0,0.1`."""
+    ranges = parse_options("randomization", words)
+    for name, value in ranges.items():
+        if isinstance(value, str) and "," in value:
+            kind, _, numbers = value.partition(",")
+            try:
+                ranges[name] = (kind, *ast.literal_eval(f"({numbers},)"))
+            except (SyntaxError, ValueError):
+                continue
+    return ranges
+
+
+TASK_OPTIONS = _values_by_name(partial(parse_options, "task_options"))
 """Type of the option for tyro."""
-RANDOMIZATION = _values_by_name("randomization")
+RANDOMIZATION = _values_by_name(_parse_ranges)
 """Type of the option for tyro."""
 
 

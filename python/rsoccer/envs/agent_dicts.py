@@ -28,7 +28,7 @@ def stack_actions(actions: Mapping[str, Array], agents: Sequence[str], task: Tas
         ValueError: a wrong number of actions, or of numbers in an action. `check_actions` names
             the agent.
     """
-    rows = [np.asarray(actions[agent]) for agent in agents]
+    rows = [checks.as_array(f"actions[{agent!r}]", actions[agent]) for agent in agents]
     if task.action_table is not None:
         rows = [spaces.action_vectors(task, row) for row in rows]
     if len(actions) != len(agents) or {row.dtype.kind for row in rows} != {"f"}:

@@ -140,13 +140,16 @@ def action_array(task: Task, actions: object, space: Space[Any]) -> Array:
         space: the space that the actions are from.
 
     Returns:
-        (..., action) numbers; `Matches` checks their values.
+        (..., action) numbers from -1 to 1.
 
     Raises:
-        TypeError: indices that are not integers.
-        ValueError: a wrong shape, or an index out of range.
+        TypeError: indices that are not integers, or vectors that are not floats.
+        ValueError: a wrong shape, numbers that are not finite, or an index out of range.
     """
-    array = np.asarray(actions)
-    if array.shape != space.shape:
-        raise ValueError(f"actions: expected shape {space.shape}, got {array.shape}")
-    return spaces.action_vectors(task, array)
+    shape = space.shape or ()
+    if task.action_table is None:
+        return checks.actions(actions, shape)
+    indices = checks.as_array("actions", actions)
+    if indices.shape != shape:
+        raise ValueError(f"actions: expected shape {shape}, got {indices.shape}")
+    return spaces.action_vectors(task, indices)

@@ -14,7 +14,14 @@ from rsoccer.controllers import Controller
 from rsoccer.game import BLUE, NOBODY, YELLOW, EventKind
 from rsoccer.matches import Matches, Outcome
 from rsoccer.play import Play
-from rsoccer.policies.base import MatchState, Memory, Policy, PolicyInput, require_actions
+from rsoccer.policies.base import (
+    MatchState,
+    Memory,
+    Policy,
+    PolicyInput,
+    actions_of,
+    require_actions,
+)
 from rsoccer.randomization import Ranges
 from rsoccer.rng import WorldRng
 from rsoccer.sources import SensingSource, SimulatorSource, closed_after
@@ -291,4 +298,4 @@ class LearnerPolicy:
             own = observations if is_whole else observations[:, team.agents]
         optional = self._matches.task.optional_action_size
         inputs = PolicyInput(team.shape, view, own, optional, match)
-        return inputs.completed(self._policy.act(inputs, team.rng, team.memory))
+        return actions_of(self._policy, inputs, team.rng, team.memory)

@@ -13,7 +13,7 @@ from rsoccer.controllers import Controller, Controllers, resolve
 from rsoccer.frame import team_of
 from rsoccer.human.controls import Controls
 from rsoccer.policies import PolicyLike, make_policy
-from rsoccer.policies.base import CommandPolicy, Memory, Observes, Policy, PolicyInput
+from rsoccer.policies.base import CommandPolicy, Memory, Observes, Policy, PolicyInput, actions_of
 from rsoccer.rng import WorldRng
 from rsoccer.task import Learn, Task
 from rsoccer.tasks.ssl import CHIP_ANGLE
@@ -257,7 +257,7 @@ class HumanPolicy(CommandPolicy):
         Returns:
             (n, robots, action) in [-1, 1].
         """
-        actions = inputs.completed(self._policy.act(inputs, rng, memory))
+        actions = actions_of(self._policy, inputs, rng, memory)
         if self._driver.robot not in self._robots:
             return actions
         slot = self._robots.index(self._driver.robot)

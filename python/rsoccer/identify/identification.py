@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -138,7 +138,7 @@ def identify(
         raise ValueError(f"robot: expected one of drive {log.drive}, as the log's, got {base.name}")
     check_units(log)
     fit, aligned = None, log
-    if log.commands:
+    if any(commands.wheels.any() for commands in log.commands.values()):
         aligned = with_one_clock(log, base, clocks)
         check_gains(aligned, base)
         fit = DriveFit(aligned, base)
@@ -148,12 +148,16 @@ def identify(
             aligned = shifted(aligned, drive[0].value if drive[0].is_identified else 0.0)
             drive[0] = Estimate.missing(drive[0].name, "s", "one clock of commands and poses")
     else:
-        drive = [Estimate.missing("latency", "s", "commands")]
+        drive = [Estimate.missing("latency", "s", "commands to drive")]
+        if clocks == 2:
+            aligned = replace(log, commands={})
     noise = track_noise(log.ball)
     rolling = BallFit(runs(log, noise), noise, base_ball)
     rolling.run()
     if fit is None and not rolling.free.any():
-        raise ValueError("log: neither commands nor a ball that rolls; nothing can be identified")
+        raise ValueError(
+            "log: neither commands to drive nor a ball that rolls; nothing can be identified"
+        )
     kicks = kick_estimates(aligned, rolling)
     if clocks == 2:
         kicks[-1] = Estimate.missing(kicks[-1].name, "s", "one clock of commands and poses")

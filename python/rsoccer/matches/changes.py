@@ -227,7 +227,7 @@ def start_rows(task: Task, rows: object) -> Floats:
             outside.
     """
     size = task.config.row_size
-    array = np.atleast_2d(np.asarray(rows))
+    array = np.atleast_2d(checks.as_array("rows", rows))
     if not len(array):
         raise ValueError("rows: expected at least one state, got none")
     states = checks.floats("rows", array, (len(array), size)).copy()

@@ -577,7 +577,7 @@ class Matches:
 
     def _action_vectors(self, actions: Array) -> Array:
         """Actions (n, agents, action) of a discrete task, from indices (n, agents) or vectors."""
-        indices, shape = np.asarray(actions), (self.worlds, len(self.agents))
+        indices, shape = checks.as_array("actions", actions), (self.worlds, len(self.agents))
         if indices.dtype.kind not in "iu":
             if indices.shape == shape:
                 raise TypeError(f"actions: expected whole numbers, got {indices.dtype}")

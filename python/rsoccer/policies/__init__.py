@@ -30,7 +30,7 @@ import os
 from pathlib import Path
 
 from rsoccer.policies import names
-from rsoccer.policies.base import Policy, PolicyInput
+from rsoccer.policies.base import Policy, PolicyInput, require_observes
 from rsoccer.policies.names import list_policies, list_policies_with_skill, register_policy
 from rsoccer.policies.own_code import is_module_text, make_from_module
 from rsoccer.policies.policy_file import LOOKAHEAD, ONNX_SUFFIX, SUFFIX, SUFFIXES
@@ -96,7 +96,8 @@ def make_policy(policy: PolicyLike, task: Task | str) -> Policy:
             module that a text names does not exist or lacks the name.
         RuntimeError: the maker of a policy of a user raises an error other than ValueError.
         TypeError: not a `PolicyLike`.
-        ValueError: an unknown name, a wrong skill or mode, or a policy that does not fit the task.
+        ValueError: an unknown name, a wrong skill or mode, or a policy that does not fit the task
+            or does not say what it observes.
 
     Example:
         >>> import rsoccer
@@ -115,6 +116,7 @@ def make_policy(policy: PolicyLike, task: Task | str) -> Policy:
             policy = _make_best(task, detail if colon else None)
         else:
             policy = names.make(name, task, detail if colon else None)
+    require_observes(policy)
     policy.check_fits(task, task.layout.size)
     return policy
 

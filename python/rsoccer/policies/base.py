@@ -2,11 +2,12 @@
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
+from rsoccer import checks
 from rsoccer._core import SimConfig, Threads
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.game import Game
@@ -85,7 +86,7 @@ class PolicyInput:
         Args:
             actions: (n, robots, action), or fewer numbers by `optional_actions` at most.
         """
-        missing = self.action_shape[2] - actions.shape[-1]
+        missing = self.action_shape[2] - (actions.shape[-1] if actions.ndim else 0)
         if not 0 < missing <= self.optional_actions:
             return actions
         zeros = np.zeros((*actions.shape[:-1], missing), np.float32)
@@ -237,6 +238,46 @@ class CommandPolicy(Policy):
             (n, robots, command) finite numbers in SI units, with the columns
             `config.command_columns`. The limits of the robot apply.
         """
+
+
+def require_observes(policy: Policy) -> None:
+    """Check that a policy says what it observes.
+
+    Args:
+        policy: the policy.
+
+    Raises:
+        ValueError: it does not, or it names no kind of input.
+    """
+    kinds, observes = get_args(Observes), getattr(policy, "observes", None)
+    if observes not in kinds:
+        got = repr(observes) if hasattr(policy, "observes") else "none"
+        raise ValueError(
+            f"{type(policy).__name__}.observes: expected one of {list(kinds)}, got {got}"
+        )
+
+
+def actions_of(policy: Policy, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
+    """Return the checked actions of a policy for one control step.
+
+    Args:
+        policy: the policy, which acts.
+        inputs: view and observations of the robots.
+        rng: (n,) random streams of the worlds.
+        memory: arrays of the policy; updated in place.
+
+    Returns:
+        (n, robots, action), clipped to [-1, 1], with zeros for optional numbers that it left out.
+
+    Raises:
+        TypeError: the policy returned no array of a floating-point type.
+        ValueError: it returned an array of another shape, or numbers that are not finite.
+    """
+    name = f"{type(policy).__name__}.act"
+    actions = policy.act(inputs, rng, memory)
+    if inputs.optional_actions:
+        actions = inputs.completed(checks.as_array(name, actions))
+    return checks.actions(actions, inputs.action_shape, name)
 
 
 def require_actions(name: str, policy: Policy) -> None:

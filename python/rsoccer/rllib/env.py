@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Final
 
-import numpy as np
 from gymnasium.spaces import Dict, Space
 from ray.rllib.callbacks.callbacks import RLlibCallback
 from ray.rllib.env.multi_agent_env import MultiAgentEnv
 
 from rsoccer.arrays import Array, Floats
 from rsoccer.controllers import Controllers
+from rsoccer.envs import agent_dicts
 from rsoccer.envs.env_matches import EnvMatches
 from rsoccer.envs.options import learner_controllers, reset_options
 from rsoccer.matches import Matches
@@ -117,9 +117,18 @@ class SoccerMultiAgentEnv(MultiAgentEnv):
         Returns:
             Observations, rewards, `terminateds`, `truncateds` and infos by agent; the ends have
             `"__all__"` only.
+
+        Raises:
+            KeyError: an agent without an action.
+            TypeError: an action of the wrong type. Nothing has changed.
+            ValueError: an action with a wrong shape or value. Nothing has changed.
         """
-        actions = np.stack([np.asarray(action_dict[agent]) for agent in self.agents])
-        outcome = self.matches.step(actions[None])
+        task = self.matches.task
+        try:
+            outcome = self.matches.step(agent_dicts.stack_actions(action_dict, self.agents, task))
+        except (LookupError, TypeError, ValueError):
+            agent_dicts.check_actions(action_dict, self.agents, task)
+            raise
         infos: ByAgent = {}
         if (episodes := outcome.episodes) is not None:
             infos = {agent: episodes.info() for agent in self.agents}

@@ -207,7 +207,7 @@ class SoccerVecEnv(RobotRowsEnv, VecEnv):  # type: ignore[misc]
         Args:
             actions: (rows, action) floats, or (rows,) indices for tasks with an `action_table`.
         """
-        self._actions = np.asarray(actions)
+        self._actions = checks.as_array("actions", actions)
 
     def step_wait(self) -> tuple[Floats, Floats, Mask, list[Info]]:
         """Advance all matches by one control step, and restart those that end.

@@ -10,7 +10,14 @@ from numpy.typing import NDArray
 
 from rsoccer.arrays import Array, Doubles, Floats, Mask
 from rsoccer.policies import make_policy
-from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput, require_actions
+from rsoccer.policies.base import (
+    Memory,
+    Observes,
+    Policy,
+    PolicyInput,
+    actions_of,
+    require_actions,
+)
 from rsoccer.policies.labels import labels
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
@@ -126,7 +133,7 @@ def _act_in(
     )
     streams = rng[worlds]
     own = {name: array[worlds] for name, array in memory.items()}
-    actions = part.completed(policy.act(part, streams, own))
+    actions = actions_of(policy, part, streams, own)
     rng.put(worlds, streams)
     for name, array in own.items():
         memory[name][worlds] = array
