@@ -72,7 +72,7 @@ LAYERS = [
     {"bridge.recording", "bridge.sockets"},
     {"bridge", "bridge.live_page"},
     {"drive.settings", "drive.vision_clock", "drive.guard"},
-    {"drive.kicks", "drive.limits", "drive.peers"},
+    {"drive.kicks", "drive.peers"},
     {"drive.link", "drive.officials", "drive.sight"},
     {"drive.guard_process", "drive.state_sight"},
     {"drive.reception"},

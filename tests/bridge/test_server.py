@@ -537,6 +537,27 @@ def test_robots_of_policies_stand_when_an_external_referee_halts() -> None:
     assert np.linalg.norm(wall.robots.velocity[0], axis=1).max() > 0.3
 
 
+def test_robots_of_policies_keep_away_when_an_external_referee_stops_play() -> None:
+    """`strike` knows no referee."""
+    wall = Wall(referee="external", blue="strike")
+    wall.send("referee", referee_packet(referee_pb2.FORCE_START).SerializeToString())
+    ball = wall.server.session.arena.frame.ball
+
+    def distance() -> float:
+        offsets = wall.robots.position[0, :6] - ball.position[0]
+        return float(np.linalg.norm(offsets, axis=1).min())
+
+    for _ in range(600):
+        wall.tick()
+        if distance() < 0.2:
+            break
+    assert distance() < 0.2, "one is about to kick"
+    wall.send("referee", referee_packet(referee_pb2.STOP).SerializeToString())
+    wall.tick(400)
+    assert distance() > 0.5
+    assert np.linalg.norm(ball.velocity[0]) < 0.1, "nobody has kicked it"
+
+
 @pytest.mark.parametrize("division", ["A", "B"])
 def test_a_kick_of_an_external_referee_is_in_play_after_its_time(division: str) -> None:
     wall = Wall(referee="external", division=division)

@@ -12,8 +12,8 @@ from rsoccer.drive.check import Movement, check_robot, describe
 from rsoccer.drive.connection import Connection
 from rsoccer.drive.link import Received
 from rsoccer.drive.peers import Message
-from rsoccer.drive.settings import Limits
 from rsoccer.game import Command
+from rsoccer.protocols.limits import Limits
 from rsoccer.protocols.schemas import simulation_pb2, vision_pb2
 from tests.drive.test_connection import packet_of
 from tests.drive.wires import ServerLink, connected

@@ -13,10 +13,11 @@ from rsoccer.bridge.match_tasks import TICK
 from rsoccer.drive.connection import MAX_LATE_STEPS, Connection
 from rsoccer.drive.link import Received
 from rsoccer.drive.peers import Message
-from rsoccer.drive.settings import Limits, Settings
+from rsoccer.drive.settings import Settings
 from rsoccer.game import Command, Stage
 from rsoccer.protocols import referee
 from rsoccer.protocols.layout import WireLayout
+from rsoccer.protocols.limits import Limits
 from rsoccer.protocols.referee import RefereeStatus
 from rsoccer.protocols.schemas import simulation_pb2, vision_pb2
 from tests.drive.wires import CLIENT, ServerLink, connected

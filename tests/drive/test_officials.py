@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rsoccer import SimConfig
-from rsoccer.drive.officials import KEEP_AWAY, SILENCE, Officials
+from rsoccer.drive.officials import SILENCE, Officials
 from rsoccer.drive.settings import Settings
 from rsoccer.frame import Frame
 from rsoccer.game import Command, Stage
@@ -14,6 +14,7 @@ from rsoccer.protocols import referee, vssref
 from rsoccer.protocols.errors import MessageError
 from rsoccer.protocols.layout import WireLayout
 from rsoccer.protocols.referee import RefereeStatus
+from rsoccer.protocols.restraint import KEEP_AWAY
 
 SSL = SimConfig("ssl_b", 2, 2)
 VSS = SimConfig("vss_3v3", 3, 3)

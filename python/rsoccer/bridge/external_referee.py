@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from rsoccer.arrays import Floats
 from rsoccer.bridge.match_tasks import TICK
 from rsoccer.bridge.session import Session
+from rsoccer.protocols.limits import Limits, stopped
 from rsoccer.protocols.reported_referee import ReportedReferee
+from rsoccer.protocols.restraint import must_stand, restrained
 
 
 class ExternalReferee:
     """Obeys packets of a game controller or of VSSReferee.
 
-    The match is as it says: command, stage, score, cards, and who may touch the ball. Teams'
-    software hears it by itself; nobody's robots are stopped here.
+    The match is as it says: command, stage, score, cards, and who may touch the ball. Robots of
+    policies do what it allows, whatever rules the policies know. Teams' software hears it by
+    itself; robots of clients are not stopped here.
     """
 
     def __init__(self, session: Session) -> None:
@@ -22,6 +26,7 @@ class ExternalReferee:
         """
         self._session = session
         self._reported = ReportedReferee(session.arena.rule.rules)
+        session.stand_ins.restrain = self._restrain
 
     def receive(self, data: bytes) -> None:
         """Take in a packet.
@@ -48,6 +53,16 @@ class ExternalReferee:
         x, y = self._session.arena.frame.ball.position[0].tolist()
         self._reported.advance((x, y), TICK)
         self._write()
+
+    def _restrain(self, commands: Floats) -> Floats:
+        """Commands of policies that are allowed."""
+        session, state = self._session, self._reported.state
+        if state.command is None or must_stand(state, is_vsss=session.settings.league == "vsss"):
+            return stopped(commands)
+        if session.settings.league == "vsss":
+            return commands
+        arena = session.arena
+        return restrained(arena.config, state, commands, arena.frame, Limits().stop_speed)
 
     def _write(self) -> None:
         arena = self._session.arena

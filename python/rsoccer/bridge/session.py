@@ -16,7 +16,6 @@ from rsoccer.bridge.refusals import Reason, Refusal
 from rsoccer.bridge.settings import BLUE_ON_POSITIVE_HALF, Settings
 from rsoccer.bridge.stand_ins import StandIns
 from rsoccer.bridge.team import Address, Team
-from rsoccer.game import Command
 from rsoccer.protocols.layout import TEAMS, WireLayout
 from rsoccer.protocols.placing import Placement
 from rsoccer.tasks.match import Match
@@ -101,8 +100,6 @@ class Session:
         if stand_ins.are_there and stand_ins.is_due(arena.ticks):
             arena.sense_for_policies()
             stand_ins.act(arena.play)
-            if self.settings.referee == "external" and arena.play.game.command[0] == Command.HALT:
-                stand_ins.stop()
         robots = arena.frame.robots
         for team in self.teams:
             stand_in = stand_ins.commands if stand_ins.plays(team.index) else None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Final
 
 import numpy as np
@@ -29,6 +30,8 @@ class StandIns:
         observers: robots whose policies observe the match, in the order of a state row.
         forecasting: teams, "blue" or "yellow", whose policies play from a forecast.
         are_there: whether any team has a policy.
+        restrain: what a referee makes of their (robots, command) commands; None for no referee
+            that they may not know.
     """
 
     def __init__(self, task: Match, blue: str | None, yellow: str | None, seed: int = 0) -> None:
@@ -53,6 +56,7 @@ class StandIns:
         self.forecasting = forecasting_teams(task, assignment, None, together=False)
         self._plays = tuple(name is not None for name in given)
         self.are_there = any(self._plays)
+        self.restrain: Callable[[Floats], Floats] | None = None
         self._task = task
         self._groups = assignment.groups
         root = WorldRng.seeded(seed, 1)
@@ -100,12 +104,8 @@ class StandIns:
             if isinstance(group.policy, CommandPolicy):
                 group.command(play, self._observations, commands)
         play.actions = actions
-        self._commands = commands[0]
+        self._commands = commands[0] if self.restrain is None else self.restrain(commands[0])
         return self._commands
-
-    def stop(self) -> None:
-        """Have all robots stand until the policies act again."""
-        self._commands = np.zeros_like(self._commands)
 
     @property
     def commands(self) -> Floats:

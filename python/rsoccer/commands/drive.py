@@ -132,7 +132,8 @@ class Drive(Imports):
         Raises:
             ValueError: an option is refused.
         """
-        from rsoccer.drive.settings import Limits, Settings
+        from rsoccer.drive.settings import Settings
+        from rsoccer.protocols.limits import Limits
 
         ports = {}
         for name, value in named_entries("ports", self.ports):

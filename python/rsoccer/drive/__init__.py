@@ -19,8 +19,9 @@ The package needs protobuf: `pip install 'rsoccer[network]'`.
 """
 
 from rsoccer.drive.network import Network, firasim, forecasting, grsim, ssl_simulation
-from rsoccer.drive.settings import Limits, Settings
+from rsoccer.drive.settings import Settings
 from rsoccer.drive.simulator import NetworkSimulator, NetworkStepper, UntouchedNetwork
+from rsoccer.protocols.limits import Limits
 
 __all__ = [
     "Limits",

@@ -14,7 +14,6 @@ from rsoccer.arrays import Floats, Mask
 from rsoccer.bridge.settings import BLUE_ON_POSITIVE_HALF
 from rsoccer.drive.guard_process import GuardProcess
 from rsoccer.drive.kicks import KickPauses
-from rsoccer.drive.limits import limited, stopped
 from rsoccer.drive.link import Link, SocketLink
 from rsoccer.drive.officials import Officials
 from rsoccer.drive.peers import Message, make_layout, make_peer
@@ -23,6 +22,7 @@ from rsoccer.drive.settings import Settings
 from rsoccer.frame import Frame
 from rsoccer.game import BLUE
 from rsoccer.protocols.layout import WireLayout
+from rsoccer.protocols.limits import limited, stopped
 from rsoccer.rules.referee_config import RefereeConfig
 
 DRIVEN: Final = (BLUE,)

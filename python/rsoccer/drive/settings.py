@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Final
@@ -10,6 +9,7 @@ from typing import Final
 from rsoccer import checks
 from rsoccer.bridge.settings import SSL_GROUPS, SSL_PORTS, VSSS_GROUPS, VSSS_PORTS
 from rsoccer.protocols.layout import TEAM_NAMES
+from rsoccer.protocols.limits import Limits
 
 PEERS: Final = ("grsim", "firasim", "ssl-simulation")
 """Names of the protocols in which robots are commanded."""
@@ -31,36 +31,6 @@ _PORTS: Final[Mapping[str, Mapping[str, int]]] = {
 }
 LISTENING: Final = ("vision", "tracker", "referee")
 """Names of the ports at which a connection receives what is sent to groups."""
-
-
-@dataclass(frozen=True)
-class Limits:
-    """Greatest speeds of robots and kicks, whatever a policy asks for.
-
-    Attributes:
-        speed: speed of a robot, m/s.
-        angular_velocity: angular velocity of a robot, rad/s.
-        kick_speed: speed of a kick in space, m/s; 0 for no kicks.
-        stop_speed: speed of a robot while the referee has play stopped, m/s. The rules of the SSL
-            have 1.5 m/s.
-    """
-
-    speed: float = math.inf
-    angular_velocity: float = math.inf
-    kick_speed: float = math.inf
-    stop_speed: float = 1.5
-
-    def __post_init__(self) -> None:
-        """Check the numbers.
-
-        Raises:
-            TypeError: no number.
-            ValueError: a number below 0 or NaN.
-        """
-        for name in ("speed", "angular_velocity", "kick_speed", "stop_speed"):
-            value = getattr(self, name)
-            if value != math.inf:
-                checks.number_in_range(f"limits: {name}", value, 0.0, 1e6)
 
 
 @dataclass(frozen=True)

@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from rsoccer import RobotModel
-from rsoccer.drive.limits import limited, stopped
-from rsoccer.drive.settings import Limits
 from rsoccer.protocols.commands import CommandRow, motion
+from rsoccer.protocols.limits import Limits, limited, stopped
 
 SSL = RobotModel("ssl_generic")
 VSS = RobotModel("vss_440rpm")

@@ -3,13 +3,44 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
+from rsoccer import checks
 from rsoccer._core import RobotModel
 from rsoccer.arrays import Floats
-from rsoccer.drive.settings import Limits
 from rsoccer.protocols.commands import CommandRow, motion
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Greatest speeds of robots and kicks, whatever a policy asks for.
+
+    Attributes:
+        speed: speed of a robot, m/s.
+        angular_velocity: angular velocity of a robot, rad/s.
+        kick_speed: speed of a kick in space, m/s; 0 for no kicks.
+        stop_speed: speed of a robot while the referee has play stopped, m/s. The rules of the SSL
+            have 1.5 m/s.
+    """
+
+    speed: float = math.inf
+    angular_velocity: float = math.inf
+    kick_speed: float = math.inf
+    stop_speed: float = 1.5
+
+    def __post_init__(self) -> None:
+        """Check the numbers.
+
+        Raises:
+            TypeError: no number.
+            ValueError: a number below 0 or NaN.
+        """
+        for name in ("speed", "angular_velocity", "kick_speed", "stop_speed"):
+            value = getattr(self, name)
+            if value != math.inf:
+                checks.number_in_range(f"limits: {name}", value, 0.0, 1e6)
 
 
 def limited(model: RobotModel, command: Floats, limits: Limits) -> Floats:
