@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cached_property
 from typing import Any, Final
 
 from rsoccer import checks
 from rsoccer._core import SimConfig
+from rsoccer.registry import list_options
 from rsoccer.tasks.match import Match
 from rsoccer.tasks.ssl_match import SslMatch
 from rsoccer.tasks.vss_match import VssMatch
@@ -65,19 +67,30 @@ def make_match(league: str, division: str, robots: int | None, **options: Any) -
         **options: further options of the task.
 
     Raises:
-        TypeError: an unknown option, or one of a wrong type.
-        ValueError: an unknown league or division, or an option out of its range.
+        TypeError: an option of a wrong type.
+        ValueError: an unknown league, division or option, or an option out of its range.
     """
     if league not in LEAGUES:
         raise ValueError(f"league: expected one of {LEAGUES}, got {league!r}")
     if league == "vsss":
         size = 3 if robots is None else robots
         checks.integer_in_range("robots", size, 1, _most_robots("vss_5v5"))
+        _check_names(TickedVssMatch, options)
         field = "vss_5v5" if size > 3 else "vss_3v3"
         return TickedVssMatch(n_blue=size, n_yellow=size, field=field, **options)
     size = (11 if division == "A" else 6) if robots is None else robots
     checks.integer_in_range("robots", size, 1, _most_robots("ssl_a"))
+    _check_names(TickedSslMatch, options)
     return TickedSslMatch(division=division, n_blue=size, n_yellow=size, **options)
+
+
+def _check_names(task_class: type[Match], options: Mapping[str, Any]) -> None:
+    """Refuse options that the task does not have, or that `make_match` sets."""
+    settled = ("n_blue", "n_yellow", "field", "division")
+    valid = [name for name in list_options(task_class) if name not in settled]
+    unknown = sorted(set(options) - set(valid))
+    if unknown:
+        raise ValueError(f"options: unknown {unknown}; valid are {valid}")
 
 
 def _most_robots(field: str) -> int:

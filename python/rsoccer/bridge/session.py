@@ -152,7 +152,7 @@ def _new_task(settings: Settings) -> Match:
     try:
         return make_match(settings.league, settings.division, settings.robots, **settings.options)
     except TypeError as error:
-        raise ValueError(f"options: {str(error).rpartition('() ')[2]}") from error
+        raise ValueError(f"options: {error}") from error
 
 
 def is_loopback(address: Address) -> bool:
