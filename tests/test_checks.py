@@ -1,3 +1,4 @@
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -6,6 +7,8 @@ import pytest
 from rsoccer import LEARN, Matches
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.frame import Frame
+from rsoccer.recording import film_match
+from rsoccer.replay import record_replay
 from rsoccer.task import Play
 from rsoccer.tasks import VssSelfPlay
 from tests.helpers import Crowd, begun, same, zeros
@@ -38,6 +41,26 @@ def test_wrong_actions_are_refused_without_a_change(
         matches.step(actions)  # type: ignore[arg-type]
     after = matches.state_dict()
     assert all(same(after[name], before[name]) for name in before)
+
+
+@pytest.mark.parametrize(
+    ("names", "error"),
+    [
+        (("one",), ValueError),
+        (("a", "b", "c"), ValueError),
+        ((), ValueError),
+        ((1, 2), TypeError),
+        (("A", None), TypeError),
+        ("AB", TypeError),
+        (None, TypeError),
+    ],
+)
+@pytest.mark.parametrize("record", [record_replay, film_match])
+def test_wrong_names_of_teams_are_refused_before_a_match_is_played(
+    record: Callable[..., object], names: object, error: type[Exception]
+) -> None:
+    with pytest.raises(error, match="names: expected "):
+        record(VssSelfPlay(), {"all": "zero"}, seconds=0.1, names=names)
 
 
 def test_large_actions_are_clipped_and_float64_is_cast() -> None:

@@ -1,3 +1,4 @@
+from collections.abc import Callable
 from typing import Any, ClassVar
 
 import numpy as np
@@ -119,6 +120,48 @@ def test_actions_of_a_policy_are_cast_and_clipped() -> None:
     for matches in (given, full):
         matches.step(zeros(matches))
     assert same(given.frame.rows, full.frame.rows)
+
+
+class Forgetful(Mirror):
+    """Keeps another memory than it began with."""
+
+    def __init__(self, keep: Callable[[Memory], None]) -> None:
+        super().__init__()
+        self._keep = keep
+
+    def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
+        self._keep(memory)
+        return np.zeros(inputs.action_shape, np.float32)
+
+
+@pytest.mark.parametrize(
+    ("keep", "found"),
+    [
+        (lambda memory: memory.update(more=np.zeros(5)), r"'more': \(5,\)"),
+        (lambda memory: memory.update(calls=np.zeros(7)), r"'calls': \(7,\)"),
+        (lambda memory: memory.update(calls=[0.0] * 5), "'calls': None"),
+        (lambda memory: memory.clear(), r"got \{\}"),
+    ],
+    ids=["more", "shape", "list", "less"],
+)
+def test_a_policy_keeps_the_memory_that_it_began_with(
+    keep: Callable[[Memory], None], found: str
+) -> None:
+    matches = begun(VssSelfPlay(), controllers={"blue": Forgetful(keep)})
+    message = rf"Forgetful\.act: expected a memory of \{{'calls': \(5,\)\}} .*{found}"
+    with pytest.raises(ValueError, match=message):
+        matches.step(zeros(matches))
+
+
+def test_every_episode_begins_with_the_same_kind_of_memory() -> None:
+    class Moody(Mirror):
+        def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> Memory:
+            return {f"of {shape[0]}": np.zeros(shape[0])}
+
+    matches = Matches(VssSelfPlay(), 5, controllers={"blue": Moody()})
+    matches.reset()
+    with pytest.raises(ValueError, match=r"Moody\.new_memory: expected .*'of 5'.* got .*'of 2'"):
+        matches.reset(mask=np.array([True, True, False, False, False]))
 
 
 @pytest.mark.parametrize("observes", [None, "observations"])

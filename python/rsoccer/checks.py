@@ -216,6 +216,24 @@ def actions(value: object, shape: tuple[int, ...], name: str = "actions") -> Flo
     return np.minimum(np.maximum(floats(name, array, shape), -1.0), 1.0)
 
 
+def team_names(value: object) -> tuple[str, str]:
+    """Validate the names of blue and of yellow.
+
+    Args:
+        value: the argument `names`.
+
+    Raises:
+        TypeError: not a list or tuple of texts.
+        ValueError: more or fewer than two.
+    """
+    if not isinstance(value, list | tuple) or not all(isinstance(name, str) for name in value):
+        raise TypeError(f"names: expected the names of blue and of yellow, got {value!r}")
+    if len(value) != 2:
+        raise ValueError(f"names: expected two, got {value!r}")
+    blue, yellow = value
+    return blue, yellow
+
+
 def mask(value: object, n: int) -> Mask:
     """Validate a mask of worlds.
 

@@ -12,7 +12,16 @@ from rsoccer._core import SimConfig
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.frame import team_of
 from rsoccer.policies import make_policy
-from rsoccer.policies.base import CommandPolicy, MatchState, Memory, Policy, PolicyInput, actions_of
+from rsoccer.policies.base import (
+    CommandPolicy,
+    MatchState,
+    Memory,
+    Policy,
+    PolicyInput,
+    actions_of,
+    check_memory,
+    shapes_of,
+)
 from rsoccer.rng import WorldRng
 from rsoccer.task import LEARN, Learn, Play, Task
 from rsoccer.view import SIDES
@@ -63,7 +72,8 @@ class PolicyGroup:
 
         Raises:
             TypeError: the policy returned no array of a floating-point type.
-            ValueError: it returned actions of another shape, or that are not finite.
+            ValueError: it returned actions of another shape, or that are not finite, or left other
+                arrays in its memory.
         """
         shape = (len(actions), len(self.robots), actions.shape[2])
         inputs = self._inputs(play, observations, shape, playing)
@@ -78,14 +88,16 @@ class PolicyGroup:
             commands: (n, robots, command) commands, SI units; other robots' rows stay.
 
         Raises:
-            ValueError: the policy returned commands of another shape, or that are not finite.
+            ValueError: the policy returned commands of another shape, or that are not finite, or
+                left other arrays in its memory.
         """
         assert isinstance(self.policy, CommandPolicy), "Matches calls this for no other policy"
         shape = (len(commands), len(self.robots), play.actions.shape[2])
         inputs = self._inputs(play, observations, shape)
         converted = commands[:, self.robots]
+        name, before = f"{type(self.policy).__name__}.commands", shapes_of(self.memory)
         chosen = self.policy.commands(inputs, converted, self.rng, self.memory)
-        name = f"{type(self.policy).__name__}.commands"
+        check_memory(name, self.memory, before)
         commands[:, self.robots] = checks.floats(name, chosen, converted.shape)
 
     def _inputs(
@@ -113,8 +125,14 @@ class PolicyGroup:
             worlds: (k,) indices of the worlds.
             rng: (k,) random streams of these worlds from now on.
             action_size: numbers in one robot's action.
+
+        Raises:
+            ValueError: the policy's new memory has other arrays than that of other episodes.
         """
         fresh = _fresh_memory(self.policy, (len(worlds), len(self.robots), action_size), rng)
+        count = (len(worlds),)
+        expected = {name: count + array.shape[1:] for name, array in self.memory.items()}
+        check_memory(f"{type(self.policy).__name__}.new_memory", fresh, expected)
         self.rng.put(worlds, rng)
         for name, array in fresh.items():
             self.memory[name][worlds] = array

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from rsoccer import checks
 from rsoccer.controllers import Controllers
 from rsoccer.game import BLUE, YELLOW, EventKind
 from rsoccer.matches import Matches
@@ -122,6 +123,7 @@ def film_match(
         ImportError: a text "module:name" whose module or name does not exist.
         ValueError: `seconds` is not positive, a robot has no policy, or another bad argument.
     """
+    names = checks.team_names(names)
     matches = policy_match(
         task,
         controllers,

@@ -144,6 +144,22 @@ def test_the_normalization_of_gymnasium_is_part_of_the_policy() -> None:
     assert rsoccer.evaluate(network, "zero", matches=2).matches == 2
 
 
+def test_senses_and_varied_numbers_of_the_environments_stay_with_the_policy() -> None:
+    conditions: dict[str, Any] = {
+        "sensing": "vsss, forecast=1",
+        "randomization": {"robot.mass": (0.9, 1.1)},
+    }
+    envs = gymnasium.make_vec("rsoccer/VSSMulti-v0", num_envs=24, **conditions)
+    network = from_cleanrl(PpoAgent(), envs=gymnasium.wrappers.vector.NormalizeObservation(envs))
+    assert network.needs_forecast
+    assert network.randomization == {"robot.mass": [0.9, 1.1]}
+    one = gymnasium.vector.SyncVectorEnv(
+        [lambda: gymnasium.make("rsoccer/VSSMulti-v0", learner="blue_0", **conditions)]
+    )
+    assert from_cleanrl(PpoAgent(), envs=one).needs_forecast
+    assert not from_cleanrl(PpoAgent(), "VSSMulti-v0").needs_forecast
+
+
 def test_other_agents_are_refused() -> None:
     with pytest.raises(ValueError, match=r"agent: expected one with the parts .*, got 0"):
         from_cleanrl(nn.Sequential(nn.Linear(SIZE, ACTION)), TASK)

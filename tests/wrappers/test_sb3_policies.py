@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import rsoccer
+from rsoccer import Sensing
 from rsoccer.match_evaluation import MatchEvaluation
 from rsoccer.policies.libraries import from_sb3
 from rsoccer.policies.network import Network
@@ -48,6 +49,18 @@ def learned(kind: str, envs: Any, **settings: Any) -> Any:  # noqa: ANN401
 def observations(model: Any, n: int = 50) -> np.ndarray:  # noqa: ANN401
     size = model.observation_space.shape[0]
     return np.random.default_rng(0).uniform(-4.0, 4.0, (n, size)).astype(np.float32)
+
+
+def test_senses_and_varied_numbers_of_the_environment_stay_with_the_policy() -> None:
+    varied = {"robot.mass": (0.9, 1.1)}
+    envs = SoccerVecEnv(TASK, 2, sensing="rc2021, forecast=1", randomization=varied)
+    network = from_sb3(new("PPO", envs))
+    assert network.needs_forecast
+    assert isinstance(network.sensing, Sensing)
+    assert network.sensing == Sensing("rc2021", forecast=1.0)
+    assert network.randomization == {"robot.mass": [0.9, 1.1]}
+    other = from_sb3(new("PPO", envs), sensing=None, randomization={})
+    assert (other.sensing, other.randomization, other.needs_forecast) == (None, {}, False)
 
 
 def check_mean_actions(network: Network, model: Any, inputs: np.ndarray) -> None:  # noqa: ANN401

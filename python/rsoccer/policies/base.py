@@ -179,7 +179,8 @@ class Policy(ABC):
         Args:
             inputs: view and observations of the robots.
             rng: (n,) random streams of the worlds.
-            memory: arrays as `new_memory` returned them; updated in place.
+            memory: arrays as `new_memory` returned them; updated in place, and with the same
+                names and shapes afterwards.
 
         Returns:
             (n, robots, action) in [-1, 1]; larger values are clipped.
@@ -271,13 +272,41 @@ def actions_of(policy: Policy, inputs: PolicyInput, rng: WorldRng, memory: Memor
 
     Raises:
         TypeError: the policy returned no array of a floating-point type.
-        ValueError: it returned an array of another shape, or numbers that are not finite.
+        ValueError: it returned an array of another shape, or numbers that are not finite, or left
+            other arrays in its memory.
     """
     name = f"{type(policy).__name__}.act"
+    before = shapes_of(memory)
     actions = policy.act(inputs, rng, memory)
+    check_memory(name, memory, before)
     if inputs.optional_actions:
         actions = inputs.completed(checks.as_array(name, actions))
     return checks.actions(actions, inputs.action_shape, name)
+
+
+def shapes_of(memory: Memory) -> dict[str, tuple[int, ...] | None]:
+    """Return the shapes of a memory's arrays by name; None for what is no array.
+
+    Args:
+        memory: the arrays of a policy.
+    """
+    return {name: getattr(array, "shape", None) for name, array in memory.items()}
+
+
+def check_memory(source: str, memory: Memory, expected: dict[str, tuple[int, ...] | None]) -> None:
+    """Check that a memory has the arrays that it began with: others would outlive an episode.
+
+    Args:
+        source: the method that was called, for the error message.
+        memory: the arrays of a policy.
+        expected: their shapes, as `shapes_of` returns them.
+
+    Raises:
+        ValueError: other names or shapes.
+    """
+    found = shapes_of(memory)
+    if found != expected:
+        raise ValueError(f"{source}: expected a memory of {expected} by new_memory, got {found}")
 
 
 def require_actions(name: str, policy: Policy) -> None:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from rsoccer import checks
 from rsoccer.arrays import Array
 from rsoccer.render.pygame_import import pygame
 from rsoccer.render.rasterizer import Camera, Rasterizer
@@ -138,6 +139,7 @@ class Renderer:
             raise ValueError(
                 f"referee: expected {'a state' if self.has_referee else 'None'}, got {referee}"
             )
+        names = checks.team_names(names)
         board = Board(score, clock, names, caption, referee, announcement)
         canvas = self._background.copy()
         self._rasterizer.draw(canvas, foreground_shapes(self.config, row, board, extras))

@@ -97,8 +97,8 @@ class Recorder:
                     f"snapshot_interval: expected None for {matches.worlds} worlds, "
                     f"got {snapshot_interval}"
                 )
+        self._names = checks.team_names(names)
         self.matches, self.world = matches, world
-        self._names = names
         self._controllers = described_controllers(resolve(matches.task, controllers))
         self._interval = snapshot_interval
         self._rows: list[Floats] = []

@@ -55,6 +55,7 @@ def what_if(
         ValueError: `seconds` is not positive.
     """
     checks.positive_number("seconds", seconds)
+    names = checks.team_names(names)
     matches = replay.branch(
         frame, controllers, seed=seed, task=task, recorded=recorded, sensing=sensing
     )

@@ -13,6 +13,7 @@ from rsoccer.policies.libraries.parts import (
     Actor,
     Normalization,
     chain,
+    conditions_of,
     running_normalization,
     task_of,
 )
@@ -68,7 +69,7 @@ def from_cleanrl(
         settings["clip"] = clip
     found = task_of(task, envs)
     actor = _actor(agent)
-    return actor.network(found, _normalization(envs, clip), settings)
+    return actor.network(found, _normalization(envs, clip), {**conditions_of(envs), **settings})
 
 
 def _actor(agent: Any) -> Actor:  # noqa: ANN401

@@ -119,16 +119,39 @@ def task_of(task: Task | str | None, env: object) -> Task:
     """
     if task is not None:
         return as_task(task)
+    found = _environment(env)
+    if found is None:
+        raise ValueError(
+            "task: expected the task of the training or its name, as the model holds no "
+            "environment of rsoccer, got None"
+        )
+    own: Task = found.task
+    return own
+
+
+def conditions_of(env: object) -> dict[str, Any]:
+    """Return what robots knew in a training, and which numbers varied.
+
+    Args:
+        env: environment of the model, or None.
+
+    Returns:
+        Arguments of `Network.from_layers`; none without an environment of this package.
+    """
+    matches = getattr(_environment(env), "matches", None)
+    if matches is None:
+        return {}
+    return {"sensing": matches.sensing, "randomization": matches.randomization}
+
+
+def _environment(env: object) -> Any:  # noqa: ANN401  (of any library)
+    """The environment of this package that an environment wraps, or None."""
     for each in chain(env):
-        candidates = [each, *getattr(each, "envs", [])[:1]]
-        for candidate in candidates:
-            found = getattr(getattr(candidate, "unwrapped", candidate), "task", None)
-            if isinstance(found, Task):
+        for candidate in [each, *getattr(each, "envs", [])[:1]]:
+            found = getattr(candidate, "unwrapped", candidate)
+            if isinstance(getattr(found, "task", None), Task):
                 return found
-    raise ValueError(
-        "task: expected the task of the training or its name, as the model holds no environment "
-        "of rsoccer, got None"
-    )
+    return None
 
 
 def history_of(task: Task, size: int) -> int:

@@ -57,7 +57,9 @@ def from_rllib(
     rl_module = _module(algorithm, module)
     found = _task(task, config)
     actor = _actor(rl_module)
-    return actor.network(found, _normalization(algorithm, agent), settings)
+    used = getattr(config, "env_config", None) or {}
+    conditions = {name: used[name] for name in ("sensing", "randomization") if name in used}
+    return actor.network(found, _normalization(algorithm, agent), {**conditions, **settings})
 
 
 def _task(task: Task | str | None, config: Any) -> Task:  # noqa: ANN401

@@ -10,6 +10,7 @@ from rsoccer.policies.libraries.parts import (
     Actor,
     Normalization,
     chain,
+    conditions_of,
     running_normalization,
     task_of,
 )
@@ -59,7 +60,7 @@ def from_sb3(
         raise ValueError("model: expected one without use_sde, whose noise depends on layers")
     actor = _actor(policy)
     normalization = _normalization(env if normalize is None else normalize)
-    return actor.network(found, normalization, settings)
+    return actor.network(found, normalization, {**conditions_of(env), **settings})
 
 
 def _actor(policy: Any) -> Actor:  # noqa: ANN401

@@ -9,7 +9,7 @@ from typing import Any, Final
 import numpy as np
 
 from rsoccer.policies.heads import Deviation
-from rsoccer.policies.libraries.parts import Actor, Normalization, chain, task_of
+from rsoccer.policies.libraries.parts import Actor, Normalization, chain, conditions_of, task_of
 from rsoccer.policies.network import Network
 from rsoccer.task import Task
 
@@ -77,7 +77,7 @@ def from_torchrl(
         raise ValueError(f"actor: expected one standard deviation, got {len(scales)}")
     std, deviation = _deviation(scales[0]) if scales else (None, None)
     described = Actor(layers, head, std, deviation)
-    return described.network(found, _normalization(env), settings)
+    return described.network(found, _normalization(env), {**conditions_of(env), **settings})
 
 
 def _parts(module: Any) -> Iterator[Any]:  # noqa: ANN401
