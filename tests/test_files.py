@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from safetensors.numpy import save
 
-from rsoccer.files import read_safetensors, safetensors_bytes, write_atomically
+from rsoccer.files import check_writable, read_safetensors, safetensors_bytes, write_atomically
 
 
 def test_a_file_is_replaced_in_one_step(tmp_path: Path) -> None:
@@ -33,6 +33,25 @@ def test_a_failed_write_leaves_the_old_file_and_nothing_else(
         write_atomically(path, b"new")
     assert path.read_bytes() == b"old"
     assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize(
+    ("place", "message"),
+    [
+        (".", "name: expected a file, got the folder"),
+        ("none/file", "name: expected a folder that exists, got .*none"),
+        ("/proc/file", "name: no file can be written beside /proc/file"),
+    ],
+)
+def test_places_where_no_file_can_be_written_are_refused(
+    place: str, message: str, tmp_path: Path
+) -> None:
+    with pytest.raises(ValueError, match=message):
+        check_writable("name", tmp_path / place)
+    file = tmp_path / "file"
+    file.write_text("content")
+    check_writable("name", file)
+    assert (file.read_text(), list(tmp_path.iterdir())) == ("content", [file])
 
 
 def test_the_error_names_a_missing_folder(tmp_path: Path) -> None:

@@ -18,6 +18,7 @@ from rsoccer.policies.base import (
     Memory,
     Policy,
     PolicyInput,
+    Shapes,
     actions_of,
     check_memory,
     shapes_of,
@@ -131,7 +132,7 @@ class PolicyGroup:
         """
         fresh = _fresh_memory(self.policy, (len(worlds), len(self.robots), action_size), rng)
         count = (len(worlds),)
-        expected = {name: count + array.shape[1:] for name, array in self.memory.items()}
+        expected: Shapes = {name: count + a.shape[1:] for name, a in self.memory.items()}
         check_memory(f"{type(self.policy).__name__}.new_memory", fresh, expected)
         self.rng.put(worlds, rng)
         for name, array in fresh.items():

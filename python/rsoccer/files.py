@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
+import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Final
@@ -35,6 +36,29 @@ def write_atomically(path: Path, content: bytes) -> None:
     finally:
         partial.unlink(missing_ok=True)
     _sync_folder(path.parent)
+
+
+def check_writable(name: str, path: Path) -> None:
+    """Check that a file can be created or replaced, before work whose result it gets.
+
+    Args:
+        name: name of the argument, for the error message.
+        path: the file; it stays as it is.
+
+    Raises:
+        ValueError: a folder, a folder that does not exist, or one in which no file can be written.
+    """
+    folder = path.resolve().parent
+    if path.is_dir():
+        raise ValueError(f"{name}: expected a file, got the folder {path}")
+    if not folder.is_dir():
+        raise ValueError(f"{name}: expected a folder that exists, got {path}")
+    try:
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        reason = error.strerror or error
+        raise ValueError(f"{name}: no file can be written beside {path}: {reason}") from error
 
 
 def _sync_folder(folder: Path) -> None:

@@ -23,7 +23,7 @@ from rsoccer.protocols.parsing import parse
 from rsoccer.protocols.robot_control import read_robot_control
 from rsoccer.protocols.schemas import simulation_pb2
 
-CONFIG = make_match("ssl", "B", None).config
+CONFIG = make_match("ssl", "B", None, {}).config
 LAYOUT = WireLayout(CONFIG)
 READER = ControlReader(LAYOUT)
 FRAME = Frame.empty(1, 6, 6)

@@ -22,7 +22,7 @@ from rsoccer.protocols.schemas import tracker_pb2, vision_pb2
 @pytest.fixture
 def arena() -> Arena:
     """A match in which robots have moved, and one is absent."""
-    arena = Arena(make_match("ssl", "A", None), Sensing(frame_rate=0.0, delay=1e-6), 5)
+    arena = Arena(make_match("ssl", "A", None, {}), Sensing(frame_rate=0.0, delay=1e-6), 5)
     commands = np.zeros_like(arena.play.commands[0])
     commands[:, :3] = np.random.default_rng(1).uniform(-2.0, 2.0, (22, 3))
     frame = arena.play.frame
@@ -67,7 +67,7 @@ def test_tracker(arena: Arena, side: bool) -> None:
 
 
 def test_each_camera_tells_what_it_saw() -> None:
-    arena = Arena(make_match("ssl", "B", None), Sensing("realistic"), 1)
+    arena = Arena(make_match("ssl", "B", None, {}), Sensing("realistic"), 1)
     packets = VisionPackets(WireLayout(arena.config), arena.sensing, 0.0)
     balls = np.array([[0, -1.0, 0.5, 0.0], [1, 1.0, 0.5, 0.0], [1, 2.0, 0.0, 0.0]], np.float32)
     robots = np.array([[0, 3, 1.0, 2.0, 0.0, 1.0], [1, 7, -1.0, 2.0, -1.0, 0.0]], np.float32)
@@ -86,7 +86,7 @@ def test_each_camera_tells_what_it_saw() -> None:
 
 @pytest.mark.parametrize("side", [False, True])
 def test_cameras_see_what_is_below_them(side: bool) -> None:
-    arena = Arena(make_match("ssl", "B", None), Sensing("rc2021"), 1)
+    arena = Arena(make_match("ssl", "B", None, {}), Sensing("rc2021"), 1)
     packets = VisionPackets(WireLayout(arena.config, blue_on_positive_half=side), arena.sensing, 0)
     frames = []
     for _ in range(200):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import shutil
+import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -92,6 +94,29 @@ def test_what_cannot_be_recorded_is_refused(tmp_path: Path) -> None:
         record(wall.server, tmp_path / "no" / "match.rsr").__enter__()
     with pytest.raises(ValueError, match="record: expected a replay"):
         record(Wall(league="vsss").server, tmp_path / "match.log").__enter__()
+
+
+def test_a_replay_whose_place_is_gone_is_kept_elsewhere(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    spare = tmp_path / "spare"
+    spare.mkdir()
+    monkeypatch.setattr(tempfile, "tempdir", str(spare))
+    place = tmp_path / "gone" / "match.rsr"
+    place.parent.mkdir()
+    wall = Wall(blue="strike")
+
+    def lose() -> None:
+        with record(wall.server, place):
+            play(wall)
+            shutil.rmtree(place.parent)
+
+    with pytest.raises(
+        OSError, match=r"record: cannot write .*match\.rsr: .*; the replay is .*spare"
+    ):
+        lose()
+    (kept,) = spare.glob("match-*.rsr")
+    assert Replay.load(kept).seconds > 0.0
 
 
 def lighter_robot() -> simulation_pb2.Command:

@@ -387,7 +387,7 @@ def test_policies_play_from_a_forecast_and_ports_tell_what_is_seen() -> None:
 
 
 def test_forecasts_of_policies_change_nothing_that_is_seen() -> None:
-    task, noisy = make_match("ssl", "B", None), Sensing("rc2021")
+    task, noisy = make_match("ssl", "B", None, {}), Sensing("rc2021")
     arenas = [Arena(task, noisy, 1, forecasting=teams) for teams in ((), ("blue",))]
     commands = np.full((task.config.n_robots, 6), 0.3, np.float32)
     for tick in range(40):
@@ -601,7 +601,7 @@ def test_a_kick_off_of_an_external_referee_is_one_team_s_until_the_ball_has_move
 @pytest.mark.parametrize("name", ["forecast", "own_cameras"])
 def test_a_served_match_refuses_what_its_one_vision_cannot_tell(name: str) -> None:
     with pytest.raises(ValueError, match=rf"sensing\.{name}: expected 0"):
-        Arena(make_match("ssl", "B", None), Sensing("rc2021", **{name: 1}))
+        Arena(make_match("ssl", "B", None, {}), Sensing("rc2021", **{name: 1}))
 
 
 @pytest.mark.parametrize(("league", "policy"), [("ssl", "strike"), ("vsss", "best")])

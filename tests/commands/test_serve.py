@@ -1,6 +1,7 @@
 """`rsoccer serve`."""
 
 import signal
+import socket
 from pathlib import Path
 
 import pytest
@@ -106,6 +107,53 @@ def test_a_match_that_is_ended_by_a_signal_is_recorded(
         assert signal.getsignal(name) is signal.SIG_DFL
     finally:
         signal.signal(name, previous)
+
+
+def test_signals_while_a_record_is_written_do_not_cut_it_short(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    save = Replay.save
+
+    def pressed(self: Replay, path: Path) -> Path:
+        for name in ENDING:
+            signal.raise_signal(name)
+        return save(self, path)
+
+    monkeypatch.setattr(Replay, "save", pressed)
+    handlers = {name: signal.getsignal(name) for name in ENDING}
+    for name in ENDING:
+        signal.signal(name, signal.SIG_DFL)
+    try:
+        file = tmp_path / "match.rsr"
+        words = ["serve", "ssl", "--seconds", "0.1", "--record", str(file), *ports(*SSL)]
+        assert cli.main(words) == 0
+        assert Replay.load(file).seconds > 0.02
+    finally:
+        for name, handler in handlers.items():
+            signal.signal(name, handler)
+
+
+@pytest.mark.parametrize("taken", ["port", "page"])
+def test_a_start_that_fails_leaves_the_files_as_they_are(
+    taken: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    files = [tmp_path / name for name in ("match.rsr", "match.log")]
+    for file in files:
+        file.write_text("of before")
+    kind = socket.SOCK_DGRAM if taken == "port" else socket.SOCK_STREAM
+    with socket.socket(socket.AF_INET, kind) as other:
+        other.bind(("127.0.0.1", 0))
+        if kind == socket.SOCK_STREAM:
+            other.listen()
+        number = other.getsockname()[1]
+        chosen = ports(*SSL)
+        if taken == "port":
+            chosen = [f"blue={number}" if word.startswith("blue=") else word for word in chosen]
+        else:
+            chosen += ["--page", str(number)]
+        assert cli.main(["serve", "ssl", "--record", *map(str, files), *chosen]) == 2
+    assert str(number) in capsys.readouterr().err
+    assert [file.read_text() for file in files] == ["of before"] * 2
 
 
 def test_a_signal_that_is_ignored_stays_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -55,6 +55,19 @@ def test_an_index_leads_to_the_messages(tmp_path: Path) -> None:
     assert list(read_log(path)) == ENTRIES, "reading skips the index"
 
 
+def test_a_log_that_another_program_writes_is_left_alone(tmp_path: Path) -> None:
+    pytest.importorskip("fcntl")
+    path = tmp_path / "match.log"
+    with LogWriter(path) as log:
+        log.write(0, LogKind.REFEREE, b"")
+        with pytest.raises(OSError, match=r"match\.log: another program writes this log"):
+            LogWriter(path)
+    assert [entry.kind for entry in read_log(path)] == [LogKind.REFEREE]
+    with LogWriter(path):
+        pass
+    assert list(read_log(path)) == [], "it is replaced once it is closed"
+
+
 def test_equal_messages_give_equal_files(tmp_path: Path) -> None:
     first, second = write(tmp_path / "a.log.gz"), write(tmp_path / "b.log.gz")
     assert first.read_bytes() == second.read_bytes()

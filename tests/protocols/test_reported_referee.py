@@ -11,6 +11,7 @@ from rsoccer.protocols.errors import MessageError
 from rsoccer.protocols.layout import WireLayout
 from rsoccer.protocols.referee import RefereeStatus, TeamStatus
 from rsoccer.protocols.reported_referee import ReportedReferee
+from rsoccer.protocols.schemas import referee_pb2
 from rsoccer.rules.referee_config import RefereeConfig
 
 STATUS = RefereeStatus(
@@ -54,6 +55,39 @@ def test_a_match_is_as_the_game_controller_tells(exchanged: bool) -> None:
     sign = -1.0 if exchanged else 1.0
     assert game.designated_position[0].tolist() == pytest.approx([sign, -0.5 * sign])
     assert game.seconds_left[0] == pytest.approx(77.0)
+
+
+@pytest.mark.parametrize("again", [False, True])
+def test_a_command_that_is_given_anew_begins_again(again: bool) -> None:
+    _, layout = new_game()
+    reported, stamper = ReportedReferee(RefereeConfig("ssl_2026_b")), referee.Stamper()
+    status = RefereeStatus(Command.DIRECT_FREE_YELLOW, Stage.NORMAL_FIRST_HALF)
+    for time, anew in ((1.0, False), (1.5, False), (9.0, again)):
+        stamp = stamper.stamp(status.command, time, again=anew)
+        reported.receive(layout, referee.to_packet(layout, status, stamp).SerializeToString())
+        for _ in range(100):
+            reported.advance((0.0, 0.0), 0.06)
+    assert reported.state.steps == (100 if again else 300)
+    assert reported.state.may_touch(0) != again, "10 s are over, or have begun anew"
+
+
+@pytest.mark.parametrize("number", [10_000, 2**24 + 1, 2**32 - 1])
+@pytest.mark.parametrize("name", ["score", "yellow_cards", "red_cards", "foul_counter"])
+def test_numbers_that_no_match_has_are_read_as_the_greatest(name: str, number: int) -> None:
+    game, layout = new_game()
+    reported = ReportedReferee(RefereeConfig("ssl_2026_b"))
+    message = referee_pb2.Packet.FromString(packet(layout, STATUS))
+    setattr(message.blue, name, number)
+    reported.receive(layout, message.SerializeToString())
+    assert reported.refused == {"OUT_OF_RANGE": 1}
+    reported.write(game, 2)
+    greatest = {
+        "score": game.score[0, 0],
+        "yellow_cards": game.yellow_cards[0, 0],
+        "red_cards": game.red_cards[0, 0],
+        "foul_counter": reported.status.teams[0].fouls if reported.status else None,
+    }
+    assert greatest[name] == referee.MAX_COUNT
 
 
 def test_the_side_is_reported_and_changes_no_place() -> None:

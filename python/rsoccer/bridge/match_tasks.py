@@ -56,7 +56,7 @@ def with_ticks(config: SimConfig, time_step: float = TICK) -> SimConfig:
     )
 
 
-def make_match(league: str, division: str, robots: int | None, **options: Any) -> Match:  # noqa: ANN401
+def make_match(league: str, division: str, robots: int | None, options: Mapping[str, Any]) -> Match:
     """Return the task of a match.
 
     Args:
@@ -64,7 +64,7 @@ def make_match(league: str, division: str, robots: int | None, **options: Any) -
         division: division of the SSL, "A" or "B".
         robots: robots of a team; None for those of the rules: 11 in division A, 6 in B, 3 in VSSS,
             which plays on the field for 5 above 3.
-        **options: further options of the task.
+        options: further options of the task, by name.
 
     Raises:
         TypeError: an option of a wrong type.

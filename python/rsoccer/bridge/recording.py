@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import logging
+import os
+import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -16,6 +18,7 @@ from rsoccer.arrays import Doubles, Floats
 from rsoccer.bridge.match_tasks import TICK, with_ticks
 from rsoccer.bridge.server import Server
 from rsoccer.bridge.session import Datagram
+from rsoccer.files import check_writable
 from rsoccer.frame import Frame, robot_names
 from rsoccer.protocols.logs import COMPRESSED_SUFFIX, NANOSECONDS, LogKind, LogWriter
 from rsoccer.render.referee_state import COLUMNS, referee_row
@@ -53,13 +56,13 @@ def record(server: Server, path: Path | str) -> Iterator[None]:
             a match whose replay is recorded.
 
     Raises:
-        OSError: the file cannot be written.
-        ValueError: another suffix, or a log of a match of another league.
+        OSError: the file cannot be written. A replay is then in a temporary file, which the message
+            names.
+        ValueError: as for `check_record`.
     """
     path = Path(path)
+    check_record(server, path)
     if path.suffix == SUFFIX:
-        if not path.resolve().parent.is_dir():
-            raise ValueError(f"record: expected a folder that exists, got {path}")
         recorder = ReplayRecorder(server)
         server.listeners.append(recorder)
         server.session.recorders += 1
@@ -68,12 +71,8 @@ def record(server: Server, path: Path | str) -> Iterator[None]:
         finally:
             server.session.recorders -= 1
             server.listeners.remove(recorder)
-            recorder.replay().save(path)
+            _save(recorder.replay(), path)
         return
-    if not path.name.endswith((".log", f".log{COMPRESSED_SUFFIX}")):
-        raise ValueError(f"record: expected a name ending in .rsr, .log or .log.gz, got {path}")
-    if server.session.settings.league != "ssl":
-        raise ValueError(f"record: expected a replay (.rsr) of a match of VSSS, got {path}")
     with LogWriter(path) as log:
 
         def write(server: Server, sent: list[Datagram]) -> None:
@@ -87,6 +86,37 @@ def record(server: Server, path: Path | str) -> Iterator[None]:
             yield
         finally:
             server.listeners.remove(write)
+
+
+def check_record(server: Server, path: Path | str) -> None:
+    """Check that a match can be recorded to a file, which stays as it is.
+
+    Args:
+        server: the server.
+        path: the file.
+
+    Raises:
+        ValueError: another suffix, a log of a match of another league, or a place where no file can
+            be written.
+    """
+    path = Path(path)
+    if not path.name.endswith((SUFFIX, ".log", f".log{COMPRESSED_SUFFIX}")):
+        raise ValueError(f"record: expected a name ending in .rsr, .log or .log.gz, got {path}")
+    if path.suffix != SUFFIX and server.session.settings.league != "ssl":
+        raise ValueError(f"record: expected a replay (.rsr) of a match of VSSS, got {path}")
+    check_writable("record", path)
+
+
+def _save(replay: Replay, path: Path) -> None:
+    """Save a replay, in a temporary file if its own cannot be written any more."""
+    try:
+        replay.save(path)
+    except OSError as error:
+        handle, spare = tempfile.mkstemp(SUFFIX, f"{path.stem}-")
+        os.close(handle)
+        replay.save(spare)
+        reason = error.strerror or error
+        raise OSError(f"record: cannot write {path}: {reason}; the replay is {spare}") from error
 
 
 class ReplayRecorder:

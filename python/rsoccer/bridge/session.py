@@ -150,7 +150,7 @@ class Session:
 def _new_task(settings: Settings) -> Match:
     """The match task of some settings."""
     try:
-        return make_match(settings.league, settings.division, settings.robots, **settings.options)
+        return make_match(settings.league, settings.division, settings.robots, settings.options)
     except TypeError as error:
         raise ValueError(f"options: {error}") from error
 

@@ -106,14 +106,21 @@ def sender(interface: str, ttl: int) -> socket.socket:
     Args:
         interface: address of the interface of multicast.
         ttl: routers that multicast may pass plus 1; 0 to stay on this machine.
+
+    Raises:
+        OSError: the interface is not one of this machine. The message has it.
     """
     made = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-    made.setblocking(False)
-    made.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, BUFFER)
-    made.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, ttl)
-    made.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_LOOP, 1)
-    if interface != "0.0.0.0":
-        made.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, socket.inet_aton(interface))
+    try:
+        made.setblocking(False)
+        made.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, BUFFER)
+        made.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, ttl)
+        made.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_LOOP, 1)
+        if interface != "0.0.0.0":
+            made.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, socket.inet_aton(interface))
+    except OSError as error:
+        made.close()
+        raise OSError(f"interface {interface}: {error.strerror or error}") from error
     return made
 
 
@@ -146,7 +153,8 @@ def group_receiver(group: str, port: int, interface: str) -> socket.socket:
             made.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, member)
     except OSError as error:
         made.close()
-        raise OSError(f"{group}:{port}: {error.strerror or error}") from error
+        place = f"{group}:{port} at interface {interface}"
+        raise OSError(f"{place}: {error.strerror or error}") from error
     return made
 
 
@@ -213,6 +221,11 @@ class SocketLoop:
     def stop(self) -> None:
         """Let `run` return soon; for signal handlers and other threads."""
         self._stopped = True
+
+    @property
+    def is_stopped(self) -> bool:
+        """Whether `stop` was called."""
+        return self._stopped
 
     def run(self, seconds: float | None = None) -> None:
         """Play until `stop`.

@@ -24,10 +24,10 @@ if TYPE_CHECKING:
     from rsoccer.bridge.sockets import Network, SocketLoop
 
 ENDING: Final = tuple(
-    getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)
+    getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)
 )
-"""Signals that end a match as Ctrl-C does: records are written. A terminal that is closed sends the
-second one, which Windows lacks."""
+"""Signals that end a match: records are written, whatever comes meanwhile. Ctrl-C sends the first
+one, and a terminal that is closed the last one, which Windows lacks."""
 _SENSING = arg(metavar="PRESET|FILE", help_behavior_hint="(default: exact, 60 frames a second)")
 _POLICY = arg(metavar="POLICY", help_behavior_hint="(default: its robots stand still)")
 _USUAL = "(default: those of the league)"
@@ -111,17 +111,16 @@ class Serve(Imports):
             if number == 0 and name not in server.inputs:
                 raise ValueError(f"ports: expected 1 to 65535 for {name}, which is sent, got 0")
         with ExitStack() as stack:
-            self._watch(server, stack)
             loop = stack.enter_context(SocketLoop(server, network))
             self._announce(loop, network)
-            for name in ENDING:
+            for name in ENDING:  # which go on to do nothing else until all records are written
                 previous = signal.getsignal(name)
                 if previous is not signal.SIG_IGN:  # as `nohup` has it
                     signal.signal(name, lambda *_: loop.stop())
                     stack.callback(signal.signal, name, previous)
-            try:
-                loop.run(None if math.isinf(self.seconds) else self.seconds)
-            except KeyboardInterrupt:
+            self._watch(server, stack)  # a port that is taken must leave the files as they are
+            loop.run(None if math.isinf(self.seconds) else self.seconds)
+            if loop.is_stopped:
                 sys.stderr.write("stopped\n")
         self._report(server)
 
@@ -190,17 +189,19 @@ class Serve(Imports):
 
     def _watch(self, server: Any, stack: ExitStack) -> None:  # noqa: ANN401
         """Record, and show the page."""
-        from rsoccer.bridge.recording import record
+        from rsoccer.bridge.recording import check_record, record
 
         if len(set(self.record)) < len(self.record):
             raise ValueError(f"record: expected each file once, got {' '.join(self.record)}")
         for path in self.record:
-            stack.enter_context(record(server, path))
+            check_record(server, path)
         if self.page is not None:
             from rsoccer.bridge.live_page import LivePage
 
             page = stack.enter_context(LivePage(server, self.page))
             sys.stderr.write(f"page: {page.url}\n")
+        for path in self.record:
+            stack.enter_context(record(server, path))
 
     def _announce(self, loop: SocketLoop, network: Network) -> None:
         for name, (host, port) in loop.addresses.items():

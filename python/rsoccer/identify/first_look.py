@@ -159,6 +159,12 @@ def _typical(gains: Doubles) -> float:
 def _longest(log: Log) -> str:
     """Robot with both commands and most poses."""
     both = [robot for robot in log.commands if len(log.poses.get(robot, ())) > 2 * _HALF + 1]
+    still = sorted(robot for robot in log.commands if len(log.poses.get(robot, ())) == 1)
+    if not both and still:
+        raise ValueError(
+            f"log: the poses of {still} never change, though they are commanded: expected robots "
+            "that are on, and poses of these columns and robots"
+        )
     if not both:
         raise ValueError(
             "log: expected commands and poses of the same robot; commands of "

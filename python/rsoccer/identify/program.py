@@ -12,9 +12,11 @@ import numpy as np
 
 from rsoccer._core import RobotModel
 from rsoccer.arrays import Doubles
-from rsoccer.checks import positive_number
+from rsoccer.checks import number_in_range, positive_number
 from rsoccer.identify.log import DRIVES, KICK
 
+MAX_RATE: Final = 1000.0
+"""Greatest rate of commands, Hz: no link to a robot is as fast."""
 LEVELS: Final = (0.3, 0.6, 1.0)
 """Parts of the greatest speeds that are commanded."""
 KICKS: Final = (1.5, 3.0, 6.0)
@@ -67,9 +69,9 @@ class Program:
 
         Raises:
             TypeError: `rate` is no number.
-            ValueError: `rate` is not positive.
+            ValueError: `rate` is not 1 to `MAX_RATE`.
         """
-        period = 1.0 / positive_number("rate", rate)
+        period = 1.0 / number_in_range("rate", rate, 1.0, MAX_RATE)
         times = np.arange(int(self.seconds / period)) * period
         wheels, kicks = self.at(times.astype(np.float64))
         text = io.StringIO()

@@ -18,6 +18,9 @@ from rsoccer.view import View
 Memory = dict[str, Array]
 """State of a policy between steps: arrays (n, ...) by name, one row per world."""
 
+Shapes = dict[str, tuple[int, ...] | None]
+"""Shapes of the arrays of a memory by name; None for what is no array."""
+
 Observes = Literal["nothing", "view", "observation"]
 """Kinds of input: none, the `View` of the robots, or the view and the task's observations."""
 
@@ -284,8 +287,8 @@ def actions_of(policy: Policy, inputs: PolicyInput, rng: WorldRng, memory: Memor
     return checks.actions(actions, inputs.action_shape, name)
 
 
-def shapes_of(memory: Memory) -> dict[str, tuple[int, ...] | None]:
-    """Return the shapes of a memory's arrays by name; None for what is no array.
+def shapes_of(memory: Memory) -> Shapes:
+    """Return the shapes of a memory's arrays.
 
     Args:
         memory: the arrays of a policy.
@@ -293,7 +296,7 @@ def shapes_of(memory: Memory) -> dict[str, tuple[int, ...] | None]:
     return {name: getattr(array, "shape", None) for name, array in memory.items()}
 
 
-def check_memory(source: str, memory: Memory, expected: dict[str, tuple[int, ...] | None]) -> None:
+def check_memory(source: str, memory: Memory, expected: Shapes) -> None:
     """Check that a memory has the arrays that it began with: others would outlive an episode.
 
     Args:

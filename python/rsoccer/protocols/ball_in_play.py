@@ -58,6 +58,7 @@ class BallInPlay:
         if command is before:
             if again:
                 self.steps, self.kick_position = 0, None
+                self.in_play &= command not in _DIRECT  # a free kick is to be taken again
             return
         self.steps = 0
         if command in _PREPARED or command in _DIRECT or command is Command.FORCE_START:

@@ -22,6 +22,11 @@ from rsoccer.protocols.parsing import MAX_SIZE, parse
 from rsoccer.protocols.protobuf import Message
 from rsoccer.protocols.schemas import referee_pb2, tracker_pb2, vision_pb2
 
+try:
+    import fcntl
+except ImportError:  # on Windows
+    fcntl = None  # type: ignore[assignment]
+
 MARK: Final = b"SSL_LOG_FILE"
 """First bytes of a log."""
 VERSION: Final = 1
@@ -90,6 +95,22 @@ class LogEntry(NamedTuple):
         return None if kind is None else parse(kind, self.data)
 
 
+def _own_file(path: Path) -> IO[bytes]:
+    """An empty file that no other log is written to."""
+    file = path.open("ab")  # which keeps what another program has written
+    try:
+        if fcntl is not None:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        file.truncate(0)
+    except BlockingIOError as error:
+        file.close()
+        raise OSError(f"{path}: another program writes this log") from error
+    except BaseException:
+        file.close()
+        raise
+    return file
+
+
 class LogWriter:
     """A log that is written: a context manager.
 
@@ -110,14 +131,14 @@ class LogWriter:
                 file has none.
 
         Raises:
-            OSError: the file cannot be written.
+            OSError: the file cannot be written, or another program writes it.
             ValueError: an index of a compressed file.
         """
         self._compressed = Path(path).suffix == COMPRESSED_SUFFIX
         if index and self._compressed:
             raise ValueError("index: expected False for a compressed file, got True")
         self._places: list[int] | None = [] if index else None
-        self._raw: IO[bytes] = Path(path).open("wb")  # noqa: SIM115  (`close` closes it)
+        self._raw: IO[bytes] = _own_file(Path(path))
         self._file: IO[bytes] = self._raw
         if self._compressed:
             # Without a name and a time, equal messages give equal files.

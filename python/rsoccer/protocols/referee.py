@@ -16,6 +16,9 @@ from rsoccer.protocols.schemas import referee_pb2
 
 NAMES: Final = ("Blue", "Yellow")
 """Names of the teams where none are given."""
+MAX_COUNT: Final = 9999
+"""Greatest score and number of fouls and cards that is read: a row of a match counts exactly below
+2^24, and no match has so many."""
 RUNNING: Final = (Command.NORMAL_START, Command.FORCE_START)
 """Commands under which play goes on."""
 _PLACEMENTS: Final = (Command.BALL_PLACEMENT_BLUE, Command.BALL_PLACEMENT_YELLOW)
@@ -284,7 +287,7 @@ def read_packet(
     status = RefereeStatus(
         command=_command(message.command, problems),
         stage=Stage(message.stage),
-        teams=(_team(message.blue), _team(message.yellow)),
+        teams=(_team(message.blue, problems), _team(message.yellow, problems)),
         next_command=_command(message.next_command, problems) if following else None,
         seconds_left=left / MICROSECONDS if message.HasField("stage_time_left") else None,
         action_seconds_left=action / MICROSECONDS if timed else None,
@@ -316,17 +319,26 @@ def _command(code: int, problems: list[Problem]) -> Command:
     return Command(code)
 
 
-def _team(message: referee_pb2.TeamInfo) -> TeamStatus:
+def _count(name: str, value: int, problems: list[Problem]) -> int:
+    """A number of a team, as far as a match has it."""
+    if value <= MAX_COUNT:
+        return value
+    text = f"{name}: expected at most {MAX_COUNT}, got {value}; read as {MAX_COUNT}"
+    problems.append(Problem(Code.OUT_OF_RANGE, text))
+    return MAX_COUNT
+
+
+def _team(message: referee_pb2.TeamInfo, problems: list[Problem]) -> TeamStatus:
     can = message.can_place_ball if message.HasField("can_place_ball") else None
     failed = message.HasField("ball_placement_failures")
     return TeamStatus(
         name=message.name,
-        score=message.score,
+        score=_count("score", message.score, problems),
         goalkeeper=message.goalkeeper,
-        fouls=message.foul_counter,
-        yellow_cards=message.yellow_cards,
+        fouls=_count("foul_counter", message.foul_counter, problems),
+        yellow_cards=_count("yellow_cards", message.yellow_cards, problems),
         yellow_card_seconds=tuple(time / MICROSECONDS for time in message.yellow_card_times),
-        red_cards=message.red_cards,
+        red_cards=_count("red_cards", message.red_cards, problems),
         max_robots=message.max_allowed_bots if message.HasField("max_allowed_bots") else None,
         placement_failures=message.ball_placement_failures if failed else None,
         may_place=can,

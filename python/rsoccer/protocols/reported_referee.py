@@ -47,6 +47,7 @@ class ReportedReferee:
         self.status: RefereeStatus | None = None
         self.blue_on_positive_half: bool | None = None
         self.refused: Counter[str] = Counter()
+        self._counter: int | None = None
         self._is_vsss = rules.preset.startswith("vsss")
 
     def receive(self, layout: WireLayout, data: bytes) -> None:
@@ -78,10 +79,12 @@ class ReportedReferee:
                 next_command=None if following is None else _EXCHANGED[following],
             )
         self.status, self.stage = status, status.stage
-        self._give(layout, status.command)
+        last, self._counter = self._counter, referee.read_stamp(message).command_counter
+        self._give(layout, status.command, again=last is not None and last != self._counter)
 
-    def _give(self, layout: WireLayout, command: Command) -> None:
-        self.state.give(_EXCHANGED[command] if layout.colors_exchanged else command)
+    def _give(self, layout: WireLayout, command: Command, *, again: bool = False) -> None:
+        exchanged = _EXCHANGED[command] if layout.colors_exchanged else command
+        self.state.give(exchanged, again=again)
 
     def advance(self, ball: tuple[float, float], seconds: float) -> None:
         """Take note of a step: the time of the command, and whether the ball is in play now.
