@@ -38,9 +38,11 @@ def test_a_failed_write_leaves_the_old_file_and_nothing_else(
 @pytest.mark.parametrize(
     ("place", "message"),
     [
-        (".", "name: expected a file, got the folder"),
-        ("none/file", "name: expected a folder that exists, got .*none"),
-        ("/proc/file", "name: no file can be written beside /proc/file"),
+        (".", "name: expected a file, got "),
+        ("none/file", "name: expected a file in a folder that exists, got .*none"),
+        ("/proc/file", "name: cannot write /proc/file: No such file"),
+        ("/dev/null", "name: expected a file, got /dev/null"),
+        ("n" * 300, "name: cannot write .*: File name too long"),
     ],
 )
 def test_places_where_no_file_can_be_written_are_refused(

@@ -51,7 +51,8 @@ def test_a_text_that_names_nothing_is_refused(
 
 
 def test_a_text_without_a_module_is_a_factory_or_a_preset() -> None:
-    with pytest.raises(ValueError, match=f"^simulator: .*{NOT_A_TEXT} 'still'"):
+    expected = r"expected grsim, .* or a text 'module:name', got 'still'"
+    with pytest.raises(ValueError, match=rf"^simulator: {expected}"):
         Matches("VSS-v0", simulator="still")
     with pytest.raises(ValueError, match=r'sensing must be one of none, friendly.* got "still"'):
         Matches("VSS-v0", sensing="still")

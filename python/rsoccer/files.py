@@ -46,19 +46,18 @@ def check_writable(name: str, path: Path) -> None:
         path: the file; it stays as it is.
 
     Raises:
-        ValueError: a folder, a folder that does not exist, or one in which no file can be written.
+        ValueError: a folder or a device, or a file in a folder that does not exist or cannot be
+            written.
     """
-    folder = path.resolve().parent
-    if path.is_dir():
-        raise ValueError(f"{name}: expected a file, got the folder {path}")
-    if not folder.is_dir():
-        raise ValueError(f"{name}: expected a folder that exists, got {path}")
     try:
-        with tempfile.TemporaryFile(dir=folder):
+        if path.exists() and not path.is_file():
+            raise ValueError(f"{name}: expected a file, got {path}")
+        if not path.resolve().parent.is_dir():
+            raise ValueError(f"{name}: expected a file in a folder that exists, got {path}")
+        with tempfile.NamedTemporaryFile(dir=path.resolve().parent, prefix=f".{path.name}."):
             pass
     except OSError as error:
-        reason = error.strerror or error
-        raise ValueError(f"{name}: no file can be written beside {path}: {reason}") from error
+        raise ValueError(f"{name}: cannot write {path}: {error.strerror}") from error
 
 
 def _sync_folder(folder: Path) -> None:

@@ -57,6 +57,9 @@ def plays_one_match(source: SimulatorSource | None) -> bool:
 def _found(source: SimulatorSource | None) -> object:
     """A source, with a text replaced by what it names."""
     if isinstance(source, str):
+        if source not in NETWORK_SIMULATORS and ":" not in source:
+            names = ", ".join(NETWORK_SIMULATORS)
+            raise ValueError(f"simulator: expected {names} or a text 'module:name', got {source!r}")
         return plugins.find("simulator", NETWORK_SIMULATORS.get(source, source))
     return source
 

@@ -90,7 +90,7 @@ def test_what_cannot_be_recorded_is_refused(tmp_path: Path) -> None:
     for name in ("match.rsr.gz", "match.gz"):
         with pytest.raises(ValueError, match=r"record: expected a name ending in .rsr"):
             record(wall.server, tmp_path / name).__enter__()
-    with pytest.raises(ValueError, match="record: expected a folder that exists"):
+    with pytest.raises(ValueError, match="record: expected a file in a folder that exists"):
         record(wall.server, tmp_path / "no" / "match.rsr").__enter__()
     with pytest.raises(ValueError, match="record: expected a replay"):
         record(Wall(league="vsss").server, tmp_path / "match.log").__enter__()

@@ -70,7 +70,7 @@ def test_a_robot_that_is_not_of_the_team_is_not_checked(
         (["--delay", "2"], "delay: expected 0 to 1, got 2"),
         (["--seconds", "-1"], "seconds: expected 0 to inf, got -1"),
         (["--episodes", "0"], "episodes: expected at least 1, got 0"),
-        (["--max-speed", "-1"], "limits: speed: expected"),
+        (["--max-speed", "-1"], "max_speed: expected 0 to 1e+06, got -1"),
         (["--policy", "nobody"], "policy: expected a task before"),
     ],
 )

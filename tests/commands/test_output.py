@@ -75,7 +75,7 @@ def test_files_that_the_system_refuses_are_named(
     def refuse(**_: object) -> None:
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr("rsoccer.commands.output.NamedTemporaryFile", refuse)
+    monkeypatch.setattr("rsoccer.files.tempfile.NamedTemporaryFile", refuse)
     with pytest.raises(ValueError, match=r"json: cannot write .*results: Permission denied"):
         check_output("json", tmp_path / "results")
 

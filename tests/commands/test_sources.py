@@ -72,7 +72,11 @@ def test_a_recorded_match_shows_what_the_simulator_did(command: str, tmp_path: P
 @pytest.mark.parametrize(
     ("option", "text", "message"),
     [
-        ("simulator", "still", "simulator: expected a text 'module:name', got 'still'"),
+        (
+            "simulator",
+            "still",
+            "simulator: expected grsim, firasim, ssl-simulation or a text 'module:name', got ",
+        ),
         (
             "simulator",
             "tests.simulators:no",

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from rsoccer.drive.connection import Connection
     from rsoccer.drive.session import Session
     from rsoccer.drive.settings import Settings
+    from rsoccer.protocols.limits import Limits
 
 _IDS = arg(metavar="[INT [INT ...]]", help_behavior_hint="(default: 0, 1, ...)")
 _CAMERAS = arg(metavar="PRESET|FILE", help_behavior_hint="(default: rc2021 at 60 Hz)")
@@ -126,6 +127,16 @@ class Drive(Imports):
         finally:
             signal.signal(signal.SIGTERM, previous)
 
+    def _limits(self) -> Limits:
+        """Greatest speeds, in the words of the options."""
+        from rsoccer.protocols.limits import Limits
+
+        names = ("max_speed", "max_angular_velocity", "max_kick_speed")
+        for name in names:
+            if (value := getattr(self, name)) != math.inf:
+                checks.number_in_range(name, value, 0.0, 1e6)
+        return Limits(*(getattr(self, name) for name in names))
+
     def settings(self) -> Settings:
         """Return the settings of the connection.
 
@@ -133,7 +144,6 @@ class Drive(Imports):
             ValueError: an option is refused.
         """
         from rsoccer.drive.settings import Settings
-        from rsoccer.protocols.limits import Limits
 
         ports = {}
         for name, value in named_entries("ports", self.ports):
@@ -153,7 +163,7 @@ class Drive(Imports):
             source=self.source,
             blue_on_positive_half=self.blue_on_positive_half,
             referee=self.referee,
-            limits=Limits(self.max_speed, self.max_angular_velocity, self.max_kick_speed),
+            limits=self._limits(),
             is_synchronous=self.synchronous,
             vision_timeout=self.vision_timeout,
             patience=self.patience,

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from tempfile import NamedTemporaryFile
+
+from rsoccer.files import check_writable
 
 
 def check_output(option: str, path: Path | None, *suffixes: str) -> None:
@@ -21,18 +22,10 @@ def check_output(option: str, path: Path | None, *suffixes: str) -> None:
     """
     if path is None:
         return
-    try:
-        if path.exists() and not path.is_file():
-            raise ValueError(f"{option}: expected a file, got {path}")
-        if not path.parent.is_dir():
-            raise ValueError(f"{option}: expected a file in a folder that exists, got {path}")
-        if suffixes and path.suffix not in suffixes:
-            expected = " or ".join(suffixes)
-            raise ValueError(f"{option}: expected a name ending in {expected}, got {path}")
-        with NamedTemporaryFile(dir=path.parent, prefix=f".{path.name}."):
-            pass
-    except OSError as error:
-        raise ValueError(f"{option}: cannot write {path}: {error.strerror}") from error
+    check_writable(option, path)
+    if suffixes and path.suffix not in suffixes:
+        expected = " or ".join(suffixes)
+        raise ValueError(f"{option}: expected a name ending in {expected}, got {path}")
 
 
 def write(text: str) -> None:
