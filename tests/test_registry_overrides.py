@@ -114,7 +114,7 @@ def test_it_is_refused_where_the_task_is_used(use: str) -> None:
 class WithoutOptions(VssSelfPlay):
     text = "anything"
 
-    def markers(self, play: object, world: int) -> tuple[()]:  # type: ignore[override]
+    def markers(self, play: object, world: int) -> tuple[()]:
         return ()
 
 
