@@ -67,7 +67,7 @@ def new_play(
 
 
 def initial_rows(task: TaskDefinition, rng: WorldRng) -> Floats:
-    """Draw the initial states of episodes, (n, row).
+    """Return initial states of episodes as the task draws them, (n, row).
 
     Args:
         task: the task.

@@ -183,7 +183,7 @@ def blocks(
 
 
 def array(name: str, value: object, shape: str) -> Array:
-    """Validate that a value is an array.
+    """Return a value that has to be an array.
 
     Args:
         name: name of the value, for the error.

@@ -170,9 +170,10 @@ def test_a_policy_names_no_other_task_than_its_own() -> None:
         r"task: expected a registered task, as a policy file keeps its name and options, got "
         r"Backward; register it first with rsoccer\.register\('Backward-v0', Backward\)"
     )
-    for given in ({}, {"task_options": {}}):
+    given: tuple[dict[str, object] | None, ...] = (None, {})
+    for options in given:
         with pytest.raises(ValueError, match=expected):
-            Network.from_layers(task, zero_layers(task), **given)  # type: ignore[arg-type]
+            Network.from_layers(task, zero_layers(task), task_options=options)
     network = Network.from_layers(task, zero_layers(task), task_name="Backward-v0")
     assert (network.task_name, network.task_options) == ("Backward-v0", {})
 
@@ -180,13 +181,13 @@ def test_a_policy_names_no_other_task_than_its_own() -> None:
 def test_options_that_no_file_can_keep_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     """They were once left out with all others, as if the task had its defaults."""
     monkeypatch.setattr(names, "_TASKS", dict(names._TASKS))
+    monkeypatch.setattr(Backward, "name", "Backward")  # `register` changes it
     rsoccer.register("Backward-v0", Backward)
     task = Backward(max_steps=7, way=object())
     with pytest.raises(ValueError, match=r"task: expected options that a policy file can keep"):
         Network.from_layers(task, zero_layers(task))
     kept = Network.from_layers(task, zero_layers(task), task_options={"max_steps": 7})
     assert (kept.task_name, kept.task_options) == ("Backward-v0", {"max_steps": 7})
-    Backward.name = "Backward"
 
 
 def test_modules_of_torch_become_a_policy() -> None:

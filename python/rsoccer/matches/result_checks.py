@@ -50,8 +50,7 @@ def rewards_and_ends(task: TaskDefinition, value: object, n: int) -> tuple[dict[
         TypeError: other parts.
         ValueError: terminations of another shape or type.
     """
-    is_pair = isinstance(value, tuple) and len(value) == 2
-    if not is_pair or (type(value[0]) is not dict and not isinstance(value[0], Mapping)):
+    if not isinstance(value, tuple) or len(value) != 2 or not isinstance(value[0], Mapping):
         name = task_checks.label(task, "calculate_reward_and_done")
         got = f"({', '.join(map(_kind, value))})" if isinstance(value, tuple) else _kind(value)
         raise TypeError(f"{name}: expected (reward terms by name, ends of episodes), got {got}")

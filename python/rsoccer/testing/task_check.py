@@ -93,8 +93,8 @@ def check_task(task: Task, worlds: int = 7, steps: int = 200, seed: int = 3) -> 
     """
     if worlds < 2:
         raise ValueError(f"worlds: expected at least 2, to compare neighbors, got {worlds}")
-    _check_definition(task)
     long, task = _with_time_limit(task, steps), _with_time_limit(task, max(2, steps // 5))
+    _check_definition(task)
     _check_start(task, worlds, seed)
     _check_pressure(long, worlds, steps, seed)
     kept = KeptState(task)
