@@ -204,6 +204,30 @@ class Unscored(VssSelfPlay):
         return {}
 
 
+@dataclass(frozen=True)
+class ScoredBy(VssSelfPlay):
+    """A match with a score and rewards that are given."""
+
+    max_steps: int = 2
+    metric: float = 0.0
+    reward: float = 0.0
+
+    def calculate_reward_and_done(self, play: Play) -> Any:  # noqa: ANN401
+        _, done = super().calculate_reward_and_done(play)
+        return {"own": np.full((len(done), 1), self.reward, np.float32)}, done
+
+    def metrics(self, play: Play) -> dict[str, Floats]:
+        return {"goal_score": np.full(len(play.steps), self.metric, np.float32)}
+
+
+@dataclass(frozen=True)
+class ScoredByItsReturn(ScoredBy):
+    """A match of one side without a metric of success."""
+
+    n_yellow: int = 0
+    success = None  # type: ignore[assignment]
+
+
 INVALID: list[tuple[dict[str, Any], type[Exception], str]] = [
     ({"policy": "nobody"}, ValueError, "unknown policy 'nobody'.*chase"),
     ({"opponent": "nobody"}, ValueError, "unknown policy 'nobody'.*chase"),
@@ -220,6 +244,9 @@ INVALID: list[tuple[dict[str, Any], type[Exception], str]] = [
     ({"task": "VSS-v9"}, ValueError, "unknown task 'VSS-v9'"),
     ({"task": VssSelfPlay(n_yellow=0), "opponent": "ou"}, ValueError, "opponent: VSS.*one team"),
     ({"task": "SSLPassEndurance-v1", "opponent": "ou"}, ValueError, "opponent: SSL.*one team"),
+    ({"task": ScoredBy(metric=np.nan)}, ValueError, "finite numbers of 'goal_score', .*, got nan"),
+    ({"task": ScoredBy(metric=np.inf)}, ValueError, "finite numbers of 'goal_score', .*, got inf"),
+    ({"task": ScoredByItsReturn(reward=np.nan)}, ValueError, "finite numbers of 'return', .* nan"),
     ({"task": Unscored()}, ValueError, "'Unscored-v0' has no metric 'goal_score'"),
 ]
 

@@ -27,6 +27,7 @@ LAYERS = [
     {"rules"},
     {"referee"},
     {"task_definition"},
+    {"task_checks"},
     {"encoded_blocks", "new_play"},
     {"observation_layout"},
     {"task", "matches.outcome", "matches.result_checks", "simulator_interface", "compat"},

@@ -43,6 +43,11 @@ def test_a_count_that_begins_again_is_a_new_training() -> None:
     assert [measured.is_due(samples) for samples in (160, 208)] == [False, True]
 
 
+def test_a_policy_for_a_task_that_is_given_needs_no_name_of_its_own() -> None:
+    assert MatchEvaluation(task="SSLGoToBall-v0").naming == {"task_name": "SSLGoToBall-v0"}
+    assert MatchEvaluation().naming == {}
+
+
 def test_tasks_of_one_team_have_no_opponents() -> None:
     measured = MatchEvaluation(matches=1)
     scores = measured(make_policy("best", "SSLGoToBall-v0"), 0)

@@ -122,7 +122,7 @@ def test_register_raises_errors_of_the_constructor(error: type[Exception]) -> No
     with pytest.raises(error, match="a mistake of its author"):
         rsoccer.register("Mine-v0", Mine)
     assert "Mine-v0" not in rsoccer.list_tasks()
-    assert Mine.name == VssSelfPlay.name
+    assert Mine.name == "Mine"
 
 
 def test_a_task_need_not_be_a_dataclass() -> None:
@@ -214,3 +214,30 @@ def test_a_name_has_a_version(name: str) -> None:
 def test_only_tasks_can_be_registered() -> None:
     with pytest.raises(TypeError, match="a subclass of Task"):
         rsoccer.register("Mine-v0", dict)  # type: ignore[arg-type]
+
+
+def test_a_task_that_is_not_registered_has_the_name_of_its_class() -> None:
+    """It once had the name of its parent, under which policies and results named another task."""
+
+    @dataclass(frozen=True)
+    class Mine(VssSelfPlay):
+        pass
+
+    @dataclass(frozen=True)
+    class Further(Mine):
+        name = "Further-v0"
+
+    @dataclass(frozen=True)
+    class Labeled(Mine):
+        name: str = "of an option"
+
+    @dataclass(frozen=True)
+    class Relabeled(Labeled):
+        pass
+
+    assert [each().name for each in (Mine, Further)] == ["Mine", "Further-v0"]
+    assert [each().name for each in (Labeled, Relabeled)] == ["of an option"] * 2
+    assert rsoccer.evaluate("zero", "zero", 2, task=Mine(max_steps=2)).task == "Mine"
+    assert [registry.is_registered(task) for task in (Mine(), VssSelfPlay())] == [False, True]
+    nearest = {registry.nearest_name(task) for task in (Mine(), Further(), VssSelfPlay())}
+    assert nearest == {"VSSSelfPlay-v0"}

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rsoccer import checks
+from rsoccer import checks, task_checks
 from rsoccer._core import SimConfig
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.frame import team_of
@@ -259,7 +259,7 @@ def resolve(task: Task, controllers: Controllers | None) -> dict[str, Controller
 
     Raises:
         TypeError: not a mapping, or something that is not a controller.
-        ValueError: an unknown robot or team.
+        ValueError: an unknown robot or team, or a robot without a default controller.
     """
     given = given_by_name(controllers)
     valid = ["all", *SIDES, *task.robots]
@@ -267,10 +267,10 @@ def resolve(task: Task, controllers: Controllers | None) -> dict[str, Controller
     if unknown:
         raise ValueError(f"controllers: unknown {unknown}; valid are {valid}")
     resolved: dict[str, Controller] = {}
-    for robot, default in task.default_controllers().items():
+    for robot, default in task_checks.controllers(task).items():
         key = next((key for key in (robot, team_of(robot), "all") if key in given), None)
         if key is None:
-            name = f"{task.name}: default_controllers()[{robot!r}]"
+            name = f"{task_checks.label(task, 'default_controllers')}: {robot!r}"
             resolved[robot] = _checked(name, default)
         else:
             resolved[robot] = _checked(f"controllers[{key!r}]", given[key])

@@ -100,8 +100,12 @@ class EncodedBlocks(UserDict[str, Floats]):
         return True
 
     def _write_with_added(self, out: Floats, bounds: Floats) -> bool:
-        """Write the blocks of the layout and the added ones, unless `out` has another size."""
-        added = [block.reshape(*out.shape[:2], -1) for block in self._added.values()]
+        """Write the blocks of the layout and the added ones, if their sizes are those of `out`."""
+        rows = out.shape[:2]
+        for block in self._added.values():
+            if not isinstance(block, np.ndarray) or block.shape[:2] != rows:
+                return False
+        added = [block.reshape(*rows, -1) for block in self._added.values()]
         if out.shape[-1] != self._size + sum(block.shape[-1] for block in added):
             return False
         self._encode(self._play, out, None)

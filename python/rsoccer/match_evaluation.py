@@ -98,6 +98,14 @@ class MatchEvaluation:
         self.pages: list[Path] = []
         self._due_at, self._last_samples = 0, 0
 
+    @property
+    def naming(self) -> dict[str, str]:
+        """Argument of `Network.from_layers` with which a policy needs no registered task.
+
+        It is there where `task` is given, as then the name in the policy is not used.
+        """
+        return {} if self.task is None else {"task_name": self.task.name}
+
     def is_due(self, samples: int) -> bool:
         """Return whether the policy should be played: at first, and `every` samples later.
 

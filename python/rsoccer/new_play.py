@@ -4,8 +4,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from rsoccer import checks
+from rsoccer import checks, task_checks
 from rsoccer._core import Threads
+from rsoccer.arrays import Floats
 from rsoccer.frame import Frame
 from rsoccer.game import Events, new_game
 from rsoccer.play import Play
@@ -45,6 +46,7 @@ def new_play(
         State whose frames are still to be filled, by `Play.start`.
 
     Raises:
+        TypeError: memory of the task that is no mapping.
         ValueError: memory of the task or a column of a rule whose first axis is not n.
     """
     config = task.config
@@ -55,13 +57,27 @@ def new_play(
         commands=np.zeros((n, robots, len(config.command_columns)), np.float32),
         actions=np.zeros((n, robots, task.action_size), np.float32),
         rng=rng,
-        memory=checks.memory("new_memory", task.new_memory(n), n),
+        memory=checks.memory(task_checks.label(task, "new_memory"), task.new_memory(n), n),
         game=new_game(n, columns(task.rules, n)),
         events=Events.empty(n),
         viewpoint=viewpoint,
         steps=np.zeros(n, np.int64),
         threads=threads or Threads(),
     )
+
+
+def initial_rows(task: TaskDefinition, rng: WorldRng) -> Floats:
+    """Return initial states of episodes as the task draws them, (n, row).
+
+    Args:
+        task: the task.
+        rng: (n,) random streams.
+
+    Raises:
+        TypeError: the task returned no frame.
+        ValueError: a frame of other robots or of another number of worlds.
+    """
+    return task_checks.initial_rows(task, task.get_initial_positions_frame(rng), len(rng))
 
 
 def sample_play(task: TaskDefinition) -> Play:
@@ -73,5 +89,5 @@ def sample_play(task: TaskDefinition) -> Play:
     n_blue = task.config.n_blue
     observer = 0 if "blue" in task.sides and n_blue else n_blue
     play = new_play(task, 1, new_viewpoint(task, [observer]), WorldRng.seeded(0, 1))
-    play.start(task.get_initial_positions_frame(play.rng).rows)
+    play.start(initial_rows(task, play.rng))
     return play

@@ -7,6 +7,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
+from rsoccer import task_checks
 from rsoccer._core import clip_in_place
 from rsoccer.arrays import Floats
 from rsoccer.encoded_blocks import EncodedBlocks
@@ -50,12 +51,19 @@ class ObservationLayout:
 
         Args:
             task: the task.
+
+        Raises:
+            TypeError: the task defines something of another type, see `rsoccer.task_checks`.
+            ValueError: numbers out of range, or results of other sizes.
         """
+        task_checks.definition(task)
         self._task = task
-        self.blocks = _blocks(task.frame_to_observations(sample_play(task)))
+        arrays = task.frame_to_observations(sample_play(task))
+        self.blocks = _blocks(task_checks.blocks(task, arrays, (1, 1)))
+        self._shapes = {name: block.shape for name, block in self.blocks.items()}
         self.size = sum(block.size for block in self.blocks.values())
         self.high = np.empty(self.size, np.float32)
-        limits = task.observation_limits()
+        limits = task_checks.limits(task, self.blocks)
         for name, block in self.blocks.items():
             self.high[block.columns] = limits.get(name, DEFAULT_LIMIT)
         self.low: Floats = -self.high
@@ -72,6 +80,10 @@ class ObservationLayout:
 
         Returns:
             The output (n, observers, o).
+
+        Raises:
+            TypeError: the task returned no arrays by name.
+            ValueError: other blocks than at first, or blocks of other shapes.
         """
         if out is None:
             out = np.empty((len(play.frame), len(play.observers), self.size), np.float32)
@@ -80,7 +92,9 @@ class ObservationLayout:
         blocks = self._task.frame_to_observations(play)
         if isinstance(blocks, EncodedBlocks) and blocks.write(out, self.high):
             return out
-        parts = [b if b.ndim == 3 else b.reshape(*out.shape[:2], -1) for b in blocks.values()]
+        rows = out.shape[:2]
+        checked = task_checks.blocks(self._task, blocks, rows, self._shapes)
+        parts = [b if b.ndim == 3 else b.reshape(*rows, -1) for b in checked.values()]
         np.concatenate(parts, axis=-1, out=out, casting="same_kind")
         clip_in_place(out, self.high)
         return out

@@ -2,6 +2,7 @@
 
 from functools import cached_property
 
+from rsoccer import task_checks
 from rsoccer.frame import robot_names, team_of
 from rsoccer.observation_layout import ObservationLayout
 from rsoccer.play import Play
@@ -46,7 +47,7 @@ class Task(TaskDefinition):
     @property
     def agents(self) -> tuple[str, ...]:
         """Names of the robots that learn under the default controllers."""
-        controllers = self.default_controllers()
+        controllers = task_checks.controllers(self)
         return tuple(name for name in self.robots if controllers[name] is LEARN)
 
     @property

@@ -43,8 +43,9 @@ class TaskDefinition(ABC):
     `calculate_reward_and_done`. All others have defaults.
     """
 
-    name: str = "unnamed"
-    """Registered name, set by `register`."""
+    name: str
+    """Registered name, set by `register`. Before that the name of the class, unless its body sets
+    one; a subclass does not inherit it."""
     action_size: int
     """Numbers in the action of one robot, each in [-1, 1]."""
     optional_action_size: int = 0
@@ -59,6 +60,12 @@ class TaskDefinition(ABC):
     training_options: ClassVar[tuple[str, ...]] = ("reward_weights",)
     """Options that change how a policy learns, not how it plays. The task on which a policy was
     trained is evaluated and shown without them."""
+
+    def __init_subclass__(cls, **keywords: object) -> None:
+        """Name a class after itself, as its parent's name stands for another task."""
+        super().__init_subclass__(**keywords)
+        if "name" not in {**vars(cls), **getattr(cls, "__dataclass_fields__", {})}:
+            cls.name = cls.__name__
 
     @property
     @abstractmethod

@@ -23,6 +23,7 @@ from rsoccer.envs.env_matches import EnvMatches
 from rsoccer.envs.options import learner_controllers
 from rsoccer.frame import team_of
 from rsoccer.global_state import LIMIT
+from rsoccer.matches import result_checks
 from rsoccer.randomization import Ranges
 from rsoccer.registry import resolve_task
 from rsoccer.sources import SensingSource, SimulatorSource, closed_on_error
@@ -160,7 +161,8 @@ class SoccerEnv(EnvBase):
             for group, agents in self.group_map.items()
         }
         self._with_state = checks.boolean("state", state)
-        self._metrics = tuple(self.task.metrics(self.matches.play))
+        metrics = self.task.metrics(self.matches.play)
+        self._metrics = tuple(result_checks.metrics(self.task, metrics, self.matches.worlds))
         self._last_metrics: Mapping[str, Floats] = {
             name: np.zeros(self.matches.worlds, np.float32) for name in self._metrics
         }

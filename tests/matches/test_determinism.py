@@ -75,7 +75,7 @@ def crowded(
         changed = {"get_initial_positions_frame": ssl_crowd, "calculate_reward_and_done": late}
     else:
         changed = {"get_initial_positions_frame": Crowd.get_initial_positions_frame}
-    task = type("Crowded", (task_class,), changed)(**options)
+    task = type("Crowded", (task_class,), {"name": name, **changed})(**options)
     return Matches(task, worlds, seed, threads, controllers=controllers, autoreset=autoreset)
 
 

@@ -18,7 +18,7 @@ CONTROLLERS: dict[str, tuple[Controllers | None, list[int]]] = {
 
 def learners(name: str) -> tuple[Learners, list[int]]:
     controllers, expected = CONTROLLERS[name]
-    return Learners(assign(VssSelfPlay(), controllers, 2)), expected
+    return Learners(VssSelfPlay(), assign(VssSelfPlay(), controllers, 2)), expected
 
 
 @pytest.mark.parametrize("name", CONTROLLERS)

@@ -81,6 +81,42 @@ def test_commands_of_another_shape_are_refused() -> None:
         matches.step(zeros(matches))
 
 
+TERMS = np.zeros((4, 6), np.float32)
+ENDS = np.zeros(4, np.bool_)
+STEP_FAULTS: list[tuple[str, Any, str]] = [
+    ("get_commands", None, r"get_commands: expected an array \(4, 6, 2\), got NoneType"),
+    ("get_commands", [[0.0]], r"get_commands: expected an array \(4, 6, 2\), got list"),
+    ("calculate_reward_and_done", None, r"ends of episodes\), got NoneType"),
+    ("calculate_reward_and_done", (TERMS, ENDS), r"ends of episodes\), got \(ndarray, ndarray\)"),
+    ("calculate_reward_and_done", ({}, ENDS, {}), r"got \(dict, ndarray, dict\)"),
+    ("calculate_reward_and_done", ({"own": 0.5}, ENDS), r"'own': expected an array .* got float"),
+    ("calculate_reward_and_done", ({"own": None}, ENDS), r"'own': expected an array .* got NoneTy"),
+    ("calculate_reward_and_done", ({"own": TERMS}, False), r"bool \(4,\) for the end .*, got bool"),
+    ("calculate_reward_and_done", ({"own": TERMS}, [False] * 4), r"for the end .*, got list"),
+    ("metrics", None, r"metrics: expected arrays \(4,\) by name, got NoneType"),
+    ("metrics", {"own": 1.0}, r"metrics: expected numbers \(4,\) for 'own', got float"),
+    ("metrics", {"own": None}, r"metrics: expected numbers \(4,\) for 'own', got NoneType"),
+    ("metrics", {"own": "text"}, r"metrics: expected numbers \(4,\) for 'own', got str"),
+    ("metrics", {"own": TERMS}, r"metrics: expected numbers \(4,\) for 'own', got \(4, 6\)"),
+    ("metrics", {"steps": ENDS}, "metrics: expected another name than 'steps'"),
+    ("frame_to_observations", None, r"expected blocks .* by name, got NoneType"),
+    ("frame_to_observations", {}, r"expected the blocks \['ball', .*, got \[\]"),
+]
+
+
+@pytest.mark.parametrize(("method", "value", "message"), STEP_FAULTS)
+def test_results_of_other_types_are_named(
+    method: str, value: object, message: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """They were once errors of NumPy that named neither the task nor the method."""
+    matches = Matches(Returning(), 4)
+    matches.reset()
+    monkeypatch.setattr(Returning, method, lambda *_: value, raising=False)
+    with pytest.raises((TypeError, ValueError), match=message) as caught:
+        matches.step(zeros(matches))
+    assert str(caught.value).startswith(f"Returning.{method}: ")
+
+
 @pytest.mark.parametrize("kind", [np.int64, np.bool_, np.float64])
 def test_metrics_and_commands_of_any_type_become_float32(kind: type[np.generic]) -> None:
     task = Returning(metric=np.ones(4, kind), commands=np.ones((4, 6, 2), kind))

@@ -1,4 +1,5 @@
 import pickle
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
@@ -7,11 +8,15 @@ import pytest
 import torch
 from torch import nn
 
+import rsoccer
 from rsoccer.arrays import Floats
+from rsoccer.play import Play
 from rsoccer.policies.base import PolicyInput
 from rsoccer.policies.network import SINGLE_THREAD_SIZE, Network
-from rsoccer.registry import make_task
+from rsoccer.registry import make_task, names
 from rsoccer.rng import WorldRng
+from rsoccer.task import Task
+from rsoccer.tasks.vss_single import VssSingle
 from tests.policies.networks import (
     ACTION,
     Arrays,
@@ -141,6 +146,48 @@ def test_weights_of_another_program_become_a_policy() -> None:
     assert (network.mode, network.action_repeat, network.task_name) == ("sample", 3, "VSS-v0")
     assert Network.from_layers(task, layers).mode == "mean"
     network.check_fits(task, task.layout.size)
+
+
+@dataclass(frozen=True)
+class Backward(VssSingle):
+    """A task whose robots drive backward; it is not registered."""
+
+    way: object = None
+
+    def get_commands(self, play: Play, actions: Floats) -> Floats:
+        return super().get_commands(play, -actions)
+
+
+def zero_layers(task: Task) -> list[tuple[Floats, Floats]]:
+    size = (task.action_size, task.layout.size)
+    return [(np.zeros(size, np.float32), np.zeros(size[0], np.float32))]
+
+
+def test_a_policy_names_no_other_task_than_its_own() -> None:
+    """It once named the registered parent, and was then evaluated with the parent's dynamics."""
+    task = Backward()
+    expected = (
+        r"task: expected a registered task, as a policy file keeps its name and options, got "
+        r"Backward; register it first with rsoccer\.register\('Backward-v0', Backward\)"
+    )
+    given: tuple[dict[str, object] | None, ...] = (None, {})
+    for options in given:
+        with pytest.raises(ValueError, match=expected):
+            Network.from_layers(task, zero_layers(task), task_options=options)
+    network = Network.from_layers(task, zero_layers(task), task_name="Backward-v0")
+    assert (network.task_name, network.task_options) == ("Backward-v0", {})
+
+
+def test_options_that_no_file_can_keep_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    """They were once left out with all others, as if the task had its defaults."""
+    monkeypatch.setattr(names, "_TASKS", dict(names._TASKS))
+    monkeypatch.setattr(Backward, "name", "Backward")  # `register` changes it
+    rsoccer.register("Backward-v0", Backward)
+    task = Backward(max_steps=7, way=object())
+    with pytest.raises(ValueError, match=r"task: expected options that a policy file can keep"):
+        Network.from_layers(task, zero_layers(task))
+    kept = Network.from_layers(task, zero_layers(task), task_options={"max_steps": 7})
+    assert (kept.task_name, kept.task_options) == ("Backward-v0", {"max_steps": 7})
 
 
 def test_modules_of_torch_become_a_policy() -> None:

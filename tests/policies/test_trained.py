@@ -18,7 +18,7 @@ from rsoccer.policies.evolved import Evolved
 from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import Score, read_scores, scores_text
 from rsoccer.task import Task
-from rsoccer.tasks import VssSelfPlay
+from rsoccer.tasks import SslGoToBall, VssMatch, VssSelfPlay
 from rsoccer.train.distillation import DistillArgs
 from tests.policies.networks import network_for
 
@@ -89,6 +89,24 @@ def test_a_derived_task_has_it_if_its_observations_are_equal(folder: Path) -> No
     assert isinstance(policies.make_policy("best", Derived()), Network)
     with pytest.raises(ValueError, match="best: expected a task with a trained policy, got Der"):
         policies.make_policy("best", Derived(n_blue=5))
+
+
+@dataclass(frozen=True)
+class Derived(SslGoToBall):
+    """A task that is not registered."""
+
+
+@dataclass(frozen=True)
+class DerivedMatch(VssMatch):
+    """A task that is not registered, of a parent that plays with the skills of another."""
+
+
+@pytest.mark.parametrize("derived", [Derived, DerivedMatch])
+def test_a_derived_task_has_the_policy_of_its_parent(derived: type[Task]) -> None:
+    policy = policies.make_policy("best", derived())
+    expected = policies.make_policy("best", derived.__mro__[1]())
+    assert isinstance(policy, Network) and isinstance(expected, Network)
+    assert policy.metadata | {"task": ""} == expected.metadata | {"task": ""}
 
 
 def test_the_mode_may_follow(folder: Path) -> None:

@@ -32,6 +32,13 @@ def test_a_replay_comes_back(replay: Replay) -> None:
     assert replay.to_bytes() == content
 
 
+def test_metrics_that_no_file_holds_are_named(replay: Replay) -> None:
+    first, *others = replay.episodes
+    episodes = (replace(first, metrics={"own": float("nan")}), *others)
+    with pytest.raises(ReplayError, match="metric 'own': expected a finite number, got nan"):
+        replace(replay, episodes=episodes).to_bytes()
+
+
 def test_rewards_are_accurate(replay: Replay) -> None:
     read = Replay.from_bytes(replay.to_bytes())
     assert list(read.terms) == list(replay.terms)

@@ -61,7 +61,9 @@ def test_numbers_that_cannot_be_stored_are_refused(value: float) -> None:
 
 
 def test_a_term_has_a_step_of_its_own() -> None:
-    assert quantized.term_step(np.zeros((3, 2), np.float32)) == 1.0
-    assert quantized.term_step(np.array([[0.5], [-2.0]], np.float32)) == 2.0 / 2**15
-    with pytest.raises(ReplayError, match="terms"):
-        quantized.term_step(np.array([[np.nan]], np.float32))
+    assert quantized.term_step("goal", np.zeros((3, 2), np.float32)) == 1.0
+    assert quantized.term_step("goal", np.array([[0.5], [-2.0]], np.float32)) == 2.0 / 2**15
+    with pytest.raises(
+        ReplayError, match="term 'goal': expected finite numbers of some size, got nan"
+    ):
+        quantized.term_step("goal", np.array([[np.nan]], np.float32))

@@ -1,3 +1,4 @@
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -5,7 +6,9 @@ import pytest
 
 import rsoccer
 from rsoccer import Matches
-from rsoccer.replay import Recorder, record_replay
+from rsoccer.arrays import Floats, Mask
+from rsoccer.play import Play
+from rsoccer.replay import Recorder, Replay, record_replay
 from tests.helpers import Crowd, pushing, same, zeros
 from tests.replay.conftest import vss
 
@@ -85,6 +88,46 @@ def test_next_step_begins_episodes_by_itself() -> None:
     assert len(replay.episodes) >= 3
     assert replay.episodes[-1].stop == 14
     assert (np.diff(replay.clock) == 0).sum() == len(replay.episodes) - 1
+
+
+@dataclass(frozen=True)
+class NotFinite(Crowd):
+    """A metric, and from the fifth step on a reward term, that is not finite in world 0."""
+
+    metric: float = 0.0
+    reward: float = 0.0
+
+    def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
+        terms, done = super().calculate_reward_and_done(play)
+        own = np.where(play.steps >= 5, self.reward, 0.0)[:, None]
+        return terms | {"own": own.astype(np.float32)}, done
+
+    def metrics(self, play: Play) -> dict[str, Floats]:
+        return super().metrics(play) | {"speed": np.full(len(play.frame), self.metric, np.float32)}
+
+
+@pytest.mark.parametrize(
+    ("task", "message"),
+    [
+        (NotFinite(reward=np.nan), "calculate_reward_and_done: .* for 'own', got .*nan"),
+        (NotFinite(reward=np.inf), "calculate_reward_and_done: .* for 'own', got .*inf"),
+        (NotFinite(metric=np.nan, max_steps=8), "metrics: .* for 'speed', got nan"),
+    ],
+)
+def test_numbers_that_no_file_holds_are_refused_when_they_are_recorded(
+    task: NotFinite, message: str
+) -> None:
+    """The replay could once not be saved, and nothing named the number."""
+    matches = Matches(task, autoreset="disabled")
+    recorder = Recorder(matches)
+    matches.reset()
+    recorder.begin()
+    with pytest.raises(ValueError, match=rf"^NotFinite\.{message}"):
+        while not matches.done[0]:
+            recorder.add(matches.step(zeros(matches)))
+    kept = recorder.replay()
+    assert len(kept) == (8 if task.metric != 0.0 else 5)
+    assert len(Replay.from_bytes(kept.to_bytes())) == len(kept)
 
 
 def test_an_episode_that_is_not_over_has_no_end() -> None:

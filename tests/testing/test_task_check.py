@@ -443,9 +443,12 @@ class LimitsABlockThatItDoesNotHave(Correct):
 @pytest.mark.parametrize(
     ("faulty", "message"),
     [
-        (HasRowsOfThreeNumbers, r"action_table: expected float32 numbers \(rows, 2\)"),
-        (HasWholeNumbersAsActions, r"action_table: expected float32 numbers \(rows, 2\)"),
-        (HasActionsThatAreTooLarge, "action_table: expected float32 numbers .* from -1 to 1"),
+        (
+            HasRowsOfThreeNumbers,
+            r"Numbers\.action_table: expected numbers \(choices, 2\)",
+        ),
+        (HasWholeNumbersAsActions, "action_table: expected float32 numbers, got int"),
+        (HasActionsThatAreTooLarge, "action_table: expected numbers .* from -1 to 1"),
         (LimitsABlockThatItDoesNotHave, r"observation_limits: expected names of .*\['bal'\]"),
         (KeepsOnSelf, "calculate_reward_and_done keeps state on self, in steps"),
         (KeepsInAList, r"calculate_reward_and_done keeps state on self, in KeepsInAList\.calls"),
@@ -497,7 +500,7 @@ class LimitsABlockThatItDoesNotHave(Correct):
         (ForgetsItsSuccess, "metrics: it lacks the metric 'goal_score'"),
         (CommandsTheMean, "get_commands: 'commands' of worlds"),
         (CommandsNaN, "get_commands: 'commands' has NaN"),
-        (ForgetsARobot, "default_controllers: expected LEARN.*for each of .*yellow_2"),
+        (ForgetsARobot, "default_controllers: expected a controller for each of .*yellow_2"),
         (ClaimsToBeSymmetric, "symmetry: the reward term 'left'"),
         (ReflectsABlockWrongly, "symmetry.blocks: block 'ball'"),
         (ReflectsActionsWrongly, "symmetry.action: the states that follow"),

@@ -11,7 +11,7 @@ from rsoccer.arrays import Floats
 from rsoccer.bridge.match_tasks import TICK
 from rsoccer.frame import Frame
 from rsoccer.game import Command
-from rsoccer.new_play import new_play, new_viewpoint
+from rsoccer.new_play import initial_rows, new_play, new_viewpoint
 from rsoccer.play import Play
 from rsoccer.protocols.placing import Placement
 from rsoccer.rng import WorldRng
@@ -97,7 +97,7 @@ class Arena:
         self.camera_frames: list[CameraFrame] = []
         self._frames = 0
         self._is_sensed = False
-        rows = task.get_initial_positions_frame(rng.split("start")).rows
+        rows = initial_rows(task, rng.split("start"))
         self._build(self.config, rows)
         self.play.start(rows)
         self.rule.begin(self.play, _WORLD)

@@ -10,6 +10,7 @@ import numpy as np
 from rsoccer.arrays import Floats
 from rsoccer.bridge.match_tasks import TICK
 from rsoccer.controllers import Controllers, assign
+from rsoccer.matches import result_checks
 from rsoccer.matches.sensing import forecasting_teams
 from rsoccer.play import Play
 from rsoccer.policies.base import CommandPolicy
@@ -99,7 +100,8 @@ class StandIns:
         actions = np.zeros_like(play.actions)
         for group in self._groups:
             group.act(play, self._observations, actions)
-        commands = np.array(self._task.get_commands(play, actions), np.float32)
+        commands = self._task.get_commands(play, actions)
+        commands = result_checks.commands(self._task, commands, play.commands.shape)
         for group in self._groups:
             if isinstance(group.policy, CommandPolicy):
                 group.command(play, self._observations, commands)

@@ -183,7 +183,7 @@ class EpisodeRunner:
                 results.first_goals[first] = results.steps[first]
             ending = playing & outcome.ended
             if ending.any():
-                _check_success(self.task, outcome)
+                _check_scores(self.task, outcome, results.returns, ending)
                 for name, values in outcome.metrics.items():
                     results.metrics.setdefault(name, np.zeros(n))[ending] = values[ending]
             playing &= ~ending
@@ -203,10 +203,19 @@ class _Batch:
     metrics: dict[str, Doubles]
 
 
-def _check_success(task: Task, outcome: Outcome) -> None:
-    """Raise ValueError if the task lacks its success metric."""
-    if task.success is not None and task.success not in outcome.metrics:
-        raise ValueError(f"task {task.name!r} has no metric {task.success!r} to evaluate by")
+def _check_scores(task: Task, outcome: Outcome, returns: Doubles, ending: Mask) -> None:
+    """Raise ValueError if episodes that end have no score: no success metric, or no number."""
+    metric, scores = task.success or RETURN, returns
+    if task.success is not None:
+        if task.success not in outcome.metrics:
+            raise ValueError(f"task {task.name!r} has no metric {task.success!r} to evaluate by")
+        scores = outcome.metrics[task.success].astype(np.float64)
+    unknown = scores[ending & ~np.isfinite(scores)]
+    if len(unknown):
+        raise ValueError(
+            f"{task.name}: expected finite numbers of {metric!r}, by which matches are scored, "
+            f"got {unknown[0]}"
+        )
 
 
 def _own_goals(play: Play) -> NDArray[np.int64]:

@@ -8,18 +8,20 @@ from rsoccer._core import Threads
 from rsoccer.arrays import Floats
 from rsoccer.controllers import Assignment
 from rsoccer.matches import result_checks
+from rsoccer.task import Task
 
 
 class Learners:
     """Selection of the learners from arrays (n, observers, ...)."""
 
-    def __init__(self, assignment: Assignment) -> None:
+    def __init__(self, task: Task, assignment: Assignment) -> None:
         """Prepare the selection.
 
         Args:
+            task: the task that is played, for errors.
             assignment: controllers of all robots.
         """
-        self._indices = assignment.learner_indices
+        self._task, self._indices = task, assignment.learner_indices
         self._learners, self._observers = len(assignment.learners), len(assignment.observers)
         self._all_learn = self._learners == self._observers
 
@@ -55,14 +57,15 @@ class Learners:
             Terms (n, agents) by name, and rewards (n, agents).
 
         Raises:
+            TypeError: a term that is no array.
             ValueError: a term of another shape.
         """
         shape = (n, self._observers)
         terms: dict[str, Floats] = {}
         rewards = np.zeros((n, self._learners), np.float32)
         for name, term in named.items():
-            if term.shape != shape:
-                result_checks.term(name, term, shape)
+            if not isinstance(term, np.ndarray) or term.shape != shape:
+                result_checks.term(self._task, name, term, shape)
                 term = np.broadcast_to(term, shape)
             if not self._all_learn:
                 term = term[:, self._indices]

@@ -40,7 +40,7 @@ from rsoccer.matches.sensing import (
     teams_of,
 )
 from rsoccer.matches.starts import Starts
-from rsoccer.new_play import new_play, new_viewpoint
+from rsoccer.new_play import initial_rows, new_play, new_viewpoint
 from rsoccer.play import Play
 from rsoccer.policies.base import CommandPolicy, Policy
 from rsoccer.randomization import Randomization, Ranges
@@ -216,7 +216,7 @@ class Matches:
         self.assignment = assign(self.task, controllers, worlds, by_team=by_team)
         self.forecasting = self._begin_forecasts(controllers, forecasting)
         self.agents = tuple(self.task.robots[robot] for robot in self.assignment.learners)
-        self._learners = Learners(self.assignment)
+        self._learners = Learners(self.task, self.assignment)
         self._rules = self.task.rules
         root = WorldRng.seeded(checks.integer("seed", seed, 0), worlds)
         self._start = root.split("start")
@@ -643,7 +643,7 @@ class Matches:
         for group in self.assignment.groups:
             group.act(play, self._observations, all_actions, active)
         commands = self.task.get_commands(play, all_actions)
-        play.commands = result_checks.commands(commands, play.commands.shape)
+        play.commands = result_checks.commands(self.task, commands, play.commands.shape)
         for group in self._commanding:
             group.command(play, self._observations, play.commands)
         play.actions = all_actions
@@ -682,12 +682,12 @@ class Matches:
     def _evaluate(self) -> Outcome:
         """Compute rewards, ends and metrics of the state that the physics left."""
         task, play = self.task, self.play
-        named, terminated = task.calculate_reward_and_done(play)
-        terminated = result_checks.done(terminated, self.worlds)
+        results = task.calculate_reward_and_done(play)
+        named, terminated = result_checks.rewards_and_ends(task, results, self.worlds)
         self._observer_terms = named
         terms, rewards = self._learners.sum_terms(named, self.worlds)
         truncated = np.greater(play.steps >= task.max_steps, terminated)  # late, not terminated
-        metrics = {name: np.array(value, np.float32) for name, value in task.metrics(play).items()}
+        metrics = result_checks.metrics(task, task.metrics(play), self.worlds)
         none = self._observations[:0]
         return Outcome(none, none, rewards, terms, terminated.copy(), truncated, metrics)
 
@@ -799,7 +799,7 @@ class Matches:
 
     def _drawn_start(self, rng: WorldRng) -> Floats:
         """Initial states (k, row) for k worlds: the task's own, or drawn from those given."""
-        rows = self.task.get_initial_positions_frame(rng).rows
+        rows = initial_rows(self.task, rng)
         if self._start_rows is None:
             return rows
         drawn: Floats = self._start_rows[rng.integers(len(self._start_rows))]

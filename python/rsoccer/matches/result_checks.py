@@ -1,16 +1,23 @@
 """Validation of what tasks and simulators return, and of saved states."""
 
 from collections.abc import Mapping
+from typing import Final
 
 import numpy as np
 
+from rsoccer import task_checks
 from rsoccer.arrays import Array, Doubles, Floats, Mask
+from rsoccer.task_definition import TaskDefinition
+
+RESERVED_METRICS: Final = frozenset({"steps"})
+"""Names in the info of an episode that are no metrics, see `Episodes.info`."""
 
 
-def commands(value: Array, shape: tuple[int, ...]) -> Floats:
+def commands(task: TaskDefinition, value: object, shape: tuple[int, ...]) -> Floats:
     """Validate the shape of a task's commands; the simulator validates the numbers.
 
     Args:
+        task: the task.
         value: result of `Task.get_commands`.
         shape: required shape (n, robots, command).
 
@@ -18,50 +25,104 @@ def commands(value: Array, shape: tuple[int, ...]) -> Floats:
         A float32 copy.
 
     Raises:
+        TypeError: no array.
         ValueError: another shape.
     """
-    if value.shape != shape:
-        raise ValueError(f"get_commands: expected shape {shape}, got {value.shape}")
+    if not isinstance(value, np.ndarray) or value.shape != shape:
+        name = task_checks.label(task, "get_commands")
+        got = task_checks.array(name, value, str(shape)).shape
+        raise ValueError(f"{name}: expected shape {shape}, got {got}")
     return np.array(value, np.float32, order="C")  # a copy, because `Play` keeps and clears it
 
 
-def term(name: str, value: Floats, shape: tuple[int, int]) -> None:
+def rewards_and_ends(task: TaskDefinition, value: object, n: int) -> tuple[dict[str, Floats], Mask]:
+    """Validate the parts of rewards and ends; `term` validates the terms.
+
+    Args:
+        task: the task.
+        value: result of `Task.calculate_reward_and_done`.
+        n: number of worlds.
+
+    Returns:
+        The terms by name, and the terminations (n,) bool.
+
+    Raises:
+        TypeError: other parts.
+        ValueError: terminations of another shape or type.
+    """
+    if not isinstance(value, tuple) or len(value) != 2 or not isinstance(value[0], Mapping):
+        name = task_checks.label(task, "calculate_reward_and_done")
+        got = f"({', '.join(map(_kind, value))})" if isinstance(value, tuple) else _kind(value)
+        raise TypeError(f"{name}: expected (reward terms by name, ends of episodes), got {got}")
+    terms, ended = value
+    if not isinstance(ended, np.ndarray) or ended.shape != (n,) or ended.dtype != np.bool_:
+        name = task_checks.label(task, "calculate_reward_and_done")
+        got = f"{ended.dtype} {ended.shape}" if isinstance(ended, np.ndarray) else _kind(ended)
+        raise ValueError(f"{name}: expected bool ({n},) for the end of episodes, got {got}")
+    return terms, ended
+
+
+def _kind(value: object) -> str:
+    """Name of the type of a value."""
+    return type(value).__name__
+
+
+def term(task: TaskDefinition, name: str, value: object, shape: tuple[int, int]) -> None:
     """Validate the shape of a reward term.
 
     Args:
+        task: the task.
         name: name of the term, for the error.
         value: (n, observers) or (n, 1).
         shape: (n, observers).
 
     Raises:
+        TypeError: no array.
         ValueError: another shape.
     """
-    if value.shape not in (shape, (shape[0], 1)):
-        raise ValueError(
-            f"calculate_reward_and_done: expected {shape} or {(shape[0], 1)} for {name!r}, "
-            f"got {value.shape}"
-        )
+    method, expected = "calculate_reward_and_done", f"{shape} or {(shape[0], 1)}"
+    source = task_checks.label(task, method)
+    found = task_checks.array(f"{source}: {name!r}", value, expected)
+    if found.shape not in (shape, (shape[0], 1)):
+        raise ValueError(f"{source}: expected {expected} for {name!r}, got {found.shape}")
 
 
-def done(value: Mask, n: int) -> Mask:
-    """Validate the terminations of a task.
+def metrics(task: TaskDefinition, value: object, n: int) -> dict[str, Floats]:
+    """Validate the metrics of a task.
 
     Args:
-        value: the second result of `Task.calculate_reward_and_done`.
+        task: the task.
+        value: result of `Task.metrics`.
         n: number of worlds.
 
     Returns:
-        The value, (n,) bool.
+        Float32 copies (n,) by name.
 
     Raises:
-        ValueError: another shape or type.
+        TypeError: no mapping.
+        ValueError: a metric of another type or shape, or with a name that infos use otherwise.
     """
-    if value.shape != (n,) or value.dtype != np.bool_:
-        raise ValueError(
-            f"calculate_reward_and_done: expected bool ({n},) for the end of episodes, "
-            f"got {value.dtype} {value.shape}"
-        )
-    return value
+    if type(value) is not dict and not isinstance(value, Mapping):
+        name = task_checks.label(task, "metrics")
+        raise TypeError(f"{name}: expected arrays ({n},) by name, got {_kind(value)}")
+    found: dict[str, Floats] = {}
+    for name, metric in value.items():
+        try:
+            found[name] = array = np.array(metric, np.float32)
+        except (TypeError, ValueError):
+            raise _wrong_metric(task, name, metric, n) from None
+        if array.shape != (n,):
+            raise _wrong_metric(task, name, metric, n)
+    if not RESERVED_METRICS.isdisjoint(found):
+        name = task_checks.label(task, "metrics")
+        raise ValueError(f"{name}: expected another name than 'steps', the length of an episode")
+    return found
+
+
+def _wrong_metric(task: TaskDefinition, name: str, value: object, n: int) -> ValueError:
+    got = value.shape if isinstance(value, np.ndarray) else _kind(value)
+    source = task_checks.label(task, "metrics")
+    return ValueError(f"{source}: expected numbers ({n},) for {name!r}, got {got}")
 
 
 def times(value: Array, n: int) -> Doubles:

@@ -20,7 +20,7 @@ from rsoccer.policies.heads import CHOOSING, Deviation
 from rsoccer.policies.held_actions import HeldActions
 from rsoccer.policies.layers import read_layers
 from rsoccer.policies.shield import check_shield
-from rsoccer.registry import as_task, options_of
+from rsoccer.registry import as_task, is_registered, options_of
 
 if TYPE_CHECKING:
     from rsoccer._core import Sensing
@@ -139,9 +139,10 @@ class Network(HeldActions):
             mean: (o,) or a number: subtracted from observations.
             std: (o,) or a number above 0: observations are divided by it.
             clip: bound of a normalized observation, above 0, standard deviations.
-            task_name: name of the task for `make_task`; None for the task's own.
+            task_name: name of the task for `make_task`; None for the task's own, which has to be
+                registered.
             task_options: options of the task for `make_task`; None for those of the task that
-                differ from its defaults.
+                differ from its defaults, or for none where a name is given.
             sensing: what robots knew of the true state in the training, as for `Matches`; a note
                 in the file, which does not change how the policy plays.
             randomization: numbers that each episode of the training drew; a note, too.
@@ -152,10 +153,12 @@ class Network(HeldActions):
 
         Raises:
             TypeError: neither a task nor its name, or something else than layers.
-            ValueError: other modules, or weights or numbers that do not fit the policy file's
-                format or the task.
+            ValueError: other modules, weights or numbers that do not fit the policy file's format
+                or the task, or a task that the file cannot name.
         """
         task = as_task(task)
+        if task_name is None:
+            task_options = _named_options(task, task_options)
         parts, activation = read_layers(layers, activation)
         if action_table is None and head in CHOOSING:
             action_table = task.action_table
@@ -184,8 +187,6 @@ class Network(HeldActions):
         }
         if checks.integer("history", history, 1) > 1:
             metadata["history"] = str(history)
-        if task_options is None and task_name is None:
-            task_options = options_of(task)
         if task_options:
             encoded = {name: option_values.encoded(name, v) for name, v in task_options.items()}
             metadata["task_options"] = json.dumps(encoded, sort_keys=True)
@@ -428,6 +429,24 @@ class Network(HeldActions):
                 "got 'sample'"
             )
         return mode or ("sample" if self.head.can_sample else "mean")
+
+
+def _named_options(task: Task, options: Mapping[str, Any] | None) -> Mapping[str, Any]:
+    """Options of a task, those given or its own, with which its name stands for it in a file."""
+    if not is_registered(task):
+        kind = type(task).__name__
+        raise ValueError(
+            "task: expected a registered task, as a policy file keeps its name and options, got "
+            f"{kind}; register it first with rsoccer.register('{kind}-v0', {kind}), or give a "
+            "task_name"
+        )
+    found = options_of(task) if options is None else options
+    if found is None:
+        raise ValueError(
+            f"task: expected options that a policy file can keep, got others in {task.name}; "
+            "give those to keep as task_options"
+        )
+    return found
 
 
 def _action_size(

@@ -18,7 +18,7 @@ from rsoccer.history import ObservationStack
 from rsoccer.observation_layout import ObservationLayout
 from rsoccer.policies.network import Network
 from rsoccer.policies.shield import shield_error
-from rsoccer.registry import task_with_options
+from rsoccer.registry import options_of, task_with_options
 from rsoccer.task import Task
 
 Layers = list[tuple[Floats, Floats]]
@@ -106,6 +106,8 @@ def fitted(policy: Network, task: Task) -> Network:
         mean=mean,
         std=std,
         clip=float(policy.clip),
+        task_name=task.name,  # of a class that is not registered too: the result is to be played
+        task_options=options_of(task),
         sensing=policy.sensing,
         randomization=policy.randomization,
         shield=shield,

@@ -8,6 +8,7 @@ from typing import Any
 
 from rsoccer import checks, option_values
 from rsoccer.registry.names import list_options, list_tasks, make_named, make_task, task_class
+from rsoccer.registry.overrides import check_overrides
 from rsoccer.task import Task
 
 
@@ -20,7 +21,7 @@ def options_of(task: Task) -> dict[str, Any] | None:
     Returns:
         Options by name; None if the task is not registered or an option is another object.
     """
-    if task.name not in list_tasks() or task_class(task.name) is not type(task):
+    if not is_registered(task):
         return None
     try:
         default = make_task(task.name)
@@ -33,6 +34,15 @@ def options_of(task: Task) -> dict[str, Any] | None:
         }
     except (AttributeError, OSError, TypeError, ValueError):
         return None
+
+
+def is_registered(task: Task) -> bool:
+    """Return whether the class of a task is registered under the name that the task has.
+
+    Args:
+        task: the task.
+    """
+    return task.name in list_tasks() and task_class(task.name) is type(task)
 
 
 def task_with_options(name: str, options: Mapping[str, Any]) -> Task:
@@ -62,13 +72,15 @@ def as_task(task: object) -> Task:
         task: a task, a registered name or an alias.
 
     Raises:
-        TypeError: anything else.
+        TypeError: anything else, or a task whose options keep the defaults of its parent, see
+            `rsoccer.registry.overrides`.
         ValueError: an unknown name.
     """
     if isinstance(task, str):
         return make_task(task)
     if not isinstance(task, Task):
         raise TypeError(f"task: expected a task or its name, got {task!r}")
+    check_overrides(type(task))
     return task
 
 
@@ -88,7 +100,8 @@ def resolve_task(
             the constructor of a class whose metaclass hides its arguments.
 
     Raises:
-        TypeError: not a task, an unknown option, or options for a Task object.
+        TypeError: not a task, a task that `as_task` refuses, an unknown option, or options for a
+            Task object.
         ValueError: an unknown task, or a value out of range.
     """
     if isinstance(task, str):

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Final, NamedTuple
 
 from rsoccer import ids, option_values, plugins
+from rsoccer.registry.overrides import check_overrides
 from rsoccer.task import Task
 
 
@@ -54,7 +55,8 @@ def register(name: str, task_class: type[Task]) -> None:
         task_class: a subclass of `Task`.
 
     Raises:
-        TypeError: `name` is no text, or `task_class` is not a subclass of `Task`.
+        TypeError: `name` is no text, `task_class` is not a subclass of `Task`, or its options keep
+            the defaults of its parent, see `rsoccer.registry.overrides`.
         ValueError: `name` has no version or is taken, or the class is registered already. A class
             that is defined anew, as in a cell of a notebook that runs again, replaces the former.
         Exception: any error of creating the task, where all its options have defaults.
@@ -62,6 +64,7 @@ def register(name: str, task_class: type[Task]) -> None:
     _check_name(name)
     if not (isinstance(task_class, type) and issubclass(task_class, Task)):
         raise TypeError(f"task_class: expected a subclass of Task, got {task_class!r}")
+    check_overrides(task_class)
     before = _TASKS.get(name, task_class)
     if before is not task_class and not is_redefined(before, task_class):
         raise ValueError(f"name: {name!r} is already taken by {before.__qualname__}")
@@ -227,6 +230,19 @@ def _find(name: str) -> None:
             "module that registers it, as with --import MODULE",
         )
         raise ValueError(f"unknown task {name!r}: {hint}")
+
+
+def nearest_name(task: Task) -> str:
+    """Return the registered name of a task, or of the nearest parent of its class that has one.
+
+    Args:
+        task: the task.
+
+    Returns:
+        The name; the task's own where no parent is registered either.
+    """
+    registered = {each: name for name, each in _TASKS.items()}
+    return next((registered[each] for each in type(task).__mro__ if each in registered), task.name)
 
 
 def _register_entry_point(name: str) -> None:

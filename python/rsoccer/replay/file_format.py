@@ -68,10 +68,11 @@ def to_bytes(replay: Recorded, snapshots: bool = True) -> bytes:
     Raises:
         ReplayError: numbers that are not finite, or a snapshot with objects.
     """
+    _check_metrics(replay)
     config, kept = replay.config, replay.snapshots if snapshots else {}
     row_steps = quantized.row_steps(config.n_robots)
     command_steps = [quantized.STEPS[name] for name in config.command_columns] * config.n_robots
-    term_steps = {name: quantized.term_step(term) for name, term in replay.terms.items()}
+    term_steps = {name: quantized.term_step(name, term) for name, term in replay.terms.items()}
     commands = replay.commands.reshape(len(replay), -1)
     sections = {
         "rows": quantized.encode("rows", quantized.stored_rows(replay.rows), row_steps),
@@ -110,6 +111,14 @@ def to_bytes(replay: Recorded, snapshots: bool = True) -> bytes:
         "snapshots": snapshot_arrays.described(kept),
     }
     return container.pack(header, sections | snapshot_arrays.written(kept))
+
+
+def _check_metrics(replay: Recorded) -> None:
+    """Refuse metrics that JSON cannot hold."""
+    for episode in replay.episodes:
+        for name, value in episode.metrics.items():
+            if not math.isfinite(value):
+                raise ReplayError(f"metric {name!r}: expected a finite number, got {value}")
 
 
 def _conditions(replay: Recorded) -> dict[str, Any]:

@@ -97,10 +97,11 @@ def rows_of(stored: Doubles, n_blue: int, n_yellow: int) -> Floats:
     return rows
 
 
-def term_step(term: Floats) -> float:
+def term_step(name: str, term: Floats) -> float:
     """Return the step of a reward term.
 
     Args:
+        name: name of the term, for errors.
         term: (f, observers) weighted values.
 
     Returns:
@@ -111,7 +112,7 @@ def term_step(term: Floats) -> float:
     """
     largest = float(np.abs(term).max(initial=0.0))
     if not largest <= MAX_STEP * TERM_STEPS:  # True for NaN
-        raise ReplayError(f"terms: expected finite numbers of some size, got {largest}")
+        raise ReplayError(f"term {name!r}: expected finite numbers of some size, got {largest}")
     # A magnitude at the end of float32's range would leave a step of 0.
     return max(largest / TERM_STEPS, 1e-30) if largest else 1.0
 

@@ -140,6 +140,8 @@ class Recorder:
 
         Raises:
             RuntimeError: no `begin` since the world was reset.
+            ValueError: a reward term, or a metric at the end of an episode, that is not finite:
+                files do not hold it. Nothing has changed.
         """
         matches, world = self.matches, self.world
         if self._ended and self._attached:
@@ -152,6 +154,12 @@ class Recorder:
                 return  # the world waits
             raise RuntimeError("add before begin: call begin() after each reset")
         terms = {name: np.array(term[world]) for name, term in matches.observer_terms.items()}
+        metrics = {}
+        if outcome.ended[world]:
+            metrics = {name: float(value[world]) for name, value in outcome.metrics.items()}
+        task = type(matches.task).__name__
+        _check_finite(f"{task}.calculate_reward_and_done", terms)
+        _check_finite(f"{task}.metrics", metrics)
         self._add_frame(matches.play.commands[world].copy(), terms)
         index, config = len(self._rows) - 1, matches.task.config
         rows = np.stack(self._rows[-2:])
@@ -161,7 +169,6 @@ class Recorder:
         if outcome.ended[world]:
             end = "terminated" if outcome.terminated[world] else "truncated"
             self._events.append(Event(index, "end", "", end))
-            metrics = {name: float(value[world]) for name, value in outcome.metrics.items()}
             self._close(end, metrics)
 
     def replay(self) -> Replay:
@@ -240,6 +247,13 @@ class Recorder:
         if not self._ended:
             self._episodes.append(Episode(self._start, len(self._rows), end, metrics))
             self._ended = True
+
+
+def _check_finite(source: str, named: Mapping[str, Floats | float]) -> None:
+    """Refuse numbers by name that a file cannot hold."""
+    for name, value in named.items():
+        if not np.isfinite(value).all():
+            raise ValueError(f"{source}: expected finite numbers for {name!r}, got {value}")
 
 
 def record_replay(

@@ -47,8 +47,9 @@ class EvaluationCallback:
             **kwargs: ignored.
         """
         samples = int(result.get("env_runners", {}).get(_STEPS, 0))
+        settings = {**self.evaluation.naming, **self._settings}
         scores = self.evaluation(
-            lambda: from_rllib(algorithm, module=self._module, **self._settings), samples
+            lambda: from_rllib(algorithm, module=self._module, **settings), samples
         )
         if scores:
             result["evaluation_matches"] = {

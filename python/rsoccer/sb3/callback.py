@@ -40,7 +40,8 @@ class EvaluationCallback(BaseCallback):  # type: ignore[misc]
 
     def _on_step(self) -> bool:
         """Play if it is due; return False to end the training."""
-        scores = self.evaluation(lambda: from_sb3(self.model, **self._settings), self.num_timesteps)
+        settings = {**self.evaluation.naming, **self._settings}
+        scores = self.evaluation(lambda: from_sb3(self.model, **settings), self.num_timesteps)
         for name, score in scores.items():
             self.logger.record(name, score)
         return not (scores and self._stop_when is not None and self._stop_when(scores))

@@ -5,13 +5,14 @@ from __future__ import annotations
 import zlib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Final, Literal, get_args
+from typing import Any, Final, Literal, cast, get_args
 
 import numpy as np
 
 from rsoccer.arrays import Array
 from rsoccer.frame import Frame
 from rsoccer.markers import Marker
+from rsoccer.matches import result_checks
 from rsoccer.rules.base import begin, judge
 from rsoccer.task import Play, Task
 from rsoccer.testing.errors import expect
@@ -38,7 +39,8 @@ class Method:
 
 def _new_memory(task: Task, play: Play) -> Results:
     n = len(play.frame)
-    arrays = {name: np.asarray(array) for name, array in task.new_memory(n).items()}
+    memory = _mapping(task.new_memory(n))
+    arrays = {name: np.asarray(array) for name, array in memory.items()}
     for name, array in arrays.items():
         expect(array.shape[:1] == (n,), f"{name!r} is {array.shape}, not ({n}, ...)")
         expect(array.dtype != np.object_, f"{name!r} holds objects, which cannot be saved")
@@ -64,28 +66,36 @@ def _commands(task: Task, play: Play) -> Results:
 
 
 def _observations(task: Task, play: Play) -> Results:
-    blocks = task.frame_to_observations(play)
+    blocks = _mapping(task.frame_to_observations(play))
+    missing = sorted(set(task.layout.blocks) ^ set(blocks))
+    expect(not missing, f"it returns other blocks than at first: {missing}")
     for name, block in blocks.items():
         shape = (len(play.frame), len(play.observers), *task.layout.blocks[name].shape)
         _expect_form(name, block, shape)
-    missing = sorted(set(task.layout.blocks) ^ set(blocks))
-    expect(not missing, f"it returns other blocks than at first: {missing}")
     return dict(blocks)
 
 
 def _rewards(task: Task, play: Play) -> Results:
-    terms, ended = task.calculate_reward_and_done(play)
+    results: object = task.calculate_reward_and_done(play)
+    is_pair = isinstance(results, tuple) and len(results) == 2
+    expect(is_pair, f"it returns {type(results).__name__}, not reward terms and ends of episodes")
+    terms, ended = cast(tuple[Any, Any], results)
+    terms = _mapping(terms)
     n, observers = len(play.frame), len(play.observers)
     for name, term in terms.items():
         common = np.shape(term) == (n, 1)
         _expect_form(name, term, (n, 1 if common else observers))
+    kind = type(ended).__name__
+    expect(isinstance(ended, np.ndarray), f"the end of episodes is {kind}, not an array")
     expect(np.shape(ended) == (n,), f"the end of episodes is {np.shape(ended)}, not ({n},)")
     expect(ended.dtype == np.bool_, f"the end of episodes is {ended.dtype}, not bool")
     return {**terms, "end of episodes": ended}
 
 
 def _metrics(task: Task, play: Play) -> Results:
-    metrics = task.metrics(play)
+    metrics = _mapping(task.metrics(play))
+    taken = sorted(result_checks.RESERVED_METRICS & set(metrics))
+    expect(not taken, f"it uses names that infos of episodes use otherwise: {taken}")
     for name, metric in metrics.items():
         _expect_form(name, metric, (len(play.frame),))
     known = task.success is None or task.success in metrics
@@ -120,6 +130,12 @@ def _restarts(task: Task, play: Play) -> Results:
 def _begin(task: Task, play: Play) -> Results:
     begin(task.rules, play, np.arange(len(play.frame)))
     return {}
+
+
+def _mapping(arrays: object) -> Mapping[str, Array]:
+    """Expect arrays by name."""
+    expect(isinstance(arrays, Mapping), f"it returns {type(arrays).__name__}, not arrays by name")
+    return cast(Mapping[str, Array], arrays)
 
 
 def _expect_form(name: str, array: Array, shape: tuple[int, ...]) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 from rsoccer._core import CROSSINGS, Simulator
 from rsoccer.arrays import Array, Floats
 from rsoccer.frame import Frame
-from rsoccer.new_play import new_play, new_viewpoint
+from rsoccer.new_play import initial_rows, new_play, new_viewpoint
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play, Task
 from rsoccer.testing.errors import TaskError
@@ -68,7 +68,7 @@ def _begin(task: Task, worlds: int, seed: int, rows: Floats | None) -> Play:
     rng = WorldRng.seeded(seed, worlds)
     play = new_play(task, worlds, new_viewpoint(task, observers), rng)
     if rows is None:
-        rows = task.get_initial_positions_frame(WorldRng.seeded(seed, worlds)).rows
+        rows = initial_rows(task, WorldRng.seeded(seed, worlds))
     play.start(rows)
     task.start_episode(play)
     return play

@@ -14,17 +14,17 @@ from typing import Final
 
 import numpy as np
 
+from rsoccer import task_checks
 from rsoccer.arrays import Floats, Mask
-from rsoccer.controllers import Controller
+from rsoccer.controllers import Controller, resolve
 from rsoccer.frame import team_of
 from rsoccer.matches import Matches
 from rsoccer.new_play import new_play, new_viewpoint
-from rsoccer.policies.base import Policy
-from rsoccer.registry import copied
+from rsoccer.registry import check_overrides, copied
 from rsoccer.rng import WorldRng
 from rsoccer.rules import Restart
 from rsoccer.rules.base import begin
-from rsoccer.task import LEARN, Learn, Play, Task
+from rsoccer.task import LEARN, Play, Task
 from rsoccer.testing.errors import TaskError, expect
 from rsoccer.testing.kept_state import KeptState
 from rsoccer.testing.limit_check import Excesses
@@ -53,8 +53,7 @@ def check_task(task: Task, worlds: int = 7, steps: int = 200, seed: int = 3) -> 
 
     Each method is checked by itself, on states of the start, of play and of ends of episodes:
 
-    - It returns arrays of the documented shapes, float32 and finite. So is an `action_table`, and
-      `observation_limits` that the class adds are those of blocks.
+    - It returns arrays of the documented shapes, float32 and finite. So is an `action_table`.
     - It only reads: frames, views, actions and commands never change. Memory changes in
       `start_episode` and `calculate_reward_and_done` alone, and keeps the names, shapes and types
       of `new_memory`. `play.game` and `play.events` change in the rules alone.
@@ -95,8 +94,7 @@ def check_task(task: Task, worlds: int = 7, steps: int = 200, seed: int = 3) -> 
     if worlds < 2:
         raise ValueError(f"worlds: expected at least 2, to compare neighbors, got {worlds}")
     long, task = _with_time_limit(task, steps), _with_time_limit(task, max(2, steps // 5))
-    _check_controllers(task)
-    _check_tables(task)
+    _check_definition(task)
     _check_start(task, worlds, seed)
     _check_pressure(long, worlds, steps, seed)
     kept = KeptState(task)
@@ -118,36 +116,26 @@ def _with_time_limit(task: Task, max_steps: int) -> Task:
     return limited
 
 
-def _check_controllers(task: Task) -> None:
-    """Check that each robot has a default controller."""
-    controllers, robots = task.default_controllers(), list(task.robots)
-    expect(
-        sorted(controllers) == sorted(robots)
-        and all(isinstance(each, str | Policy | Learn) for each in controllers.values()),
-        f"default_controllers: expected LEARN, a policy or its name for each of {robots}, "
-        f"got {controllers}",
-    )
+def _check_definition(task: Task) -> None:
+    """Check what matches check before they begin: options, attributes, controllers, sizes."""
+    try:
+        check_overrides(type(task))
+        task_checks.definition(task)
+        resolve(task, None)
+    except (TypeError, ValueError) as error:
+        raise TaskError(str(error)) from error
+    kind = np.float32 if task.action_table is None else task.action_table.dtype
+    expect(kind == np.float32, f"action_table: expected float32 numbers, got {kind}")
 
 
-def _check_tables(task: Task) -> None:
-    """Check the actions of a discrete task, and that bounds are those of blocks."""
-    table = task.action_table
-    if table is not None:
-        is_table = isinstance(table, np.ndarray) and table.dtype == np.float32 and table.ndim == 2
-        words = f"action_table: expected float32 numbers (rows, {task.action_size}) from -1 to 1"
-        expect(
-            is_table and table.shape[1] == task.action_size and len(table) > 0,
-            f"{words}, got {table!r}",
-        )
-        expect(bool((np.abs(table) <= 1.0).all()), f"{words}, got {table!r}")  # False for NaN
-    own = vars(type(task)).get("observation_limits")
-    if own is not None:  # a class of the package lists blocks that not all of its tasks have
-        inherited = super(type(task), task).observation_limits()
-        unknown = sorted(set(task.observation_limits()) - set(inherited) - set(task.layout.blocks))
-        expect(
-            not unknown,
-            f"observation_limits: expected names of {list(task.layout.blocks)}, got {unknown}",
-        )
+def _check_layout(task: Task) -> None:
+    """Check the blocks of the observation and their bounds, from which the layout follows."""
+    try:
+        task.layout  # noqa: B018  (computed here)
+    except Exception as error:
+        if str(error).startswith(f"{type(task).__name__}."):
+            raise TaskError(str(error)) from error
+        # Otherwise the method has raised: its own check says so.
 
 
 def _check_start(task: Task, worlds: int, seed: int) -> None:
@@ -156,7 +144,7 @@ def _check_start(task: Task, worlds: int, seed: int) -> None:
     rng = WorldRng.seeded(seed, worlds)
     try:
         play = new_play(task, worlds, new_viewpoint(task, observers), rng)
-    except ValueError as error:  # of the memory, which it names
+    except (TypeError, ValueError) as error:  # of the memory, which it names
         raise TaskError(str(error)) from error
     check_method(task, NEW_MEMORY, play)
     check_method(task, INITIAL_POSITIONS, play)
@@ -167,6 +155,7 @@ def _check_start(task: Task, worlds: int, seed: int) -> None:
     task.start_episode(play)
     check_method(task, RULES_BEGIN, play)
     begin(task.rules, play, np.arange(worlds))
+    _check_layout(task)
     for method in DURING_EPISODES:
         check_method(task, method, play)
 

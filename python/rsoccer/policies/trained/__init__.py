@@ -19,7 +19,7 @@ from rsoccer.policies.lookahead import Lookahead
 from rsoccer.policies.network import MODES, Network
 from rsoccer.policies.other_task import fitted
 from rsoccer.policies.policy_file import LOOKAHEAD, Score
-from rsoccer.registry import task_with_options
+from rsoccer.registry import nearest_name, task_with_options
 from rsoccer.task import Task
 
 BEST: Final = "best"
@@ -133,13 +133,13 @@ def load_lookahead(name: str, path: Path, task: Task | None) -> Lookahead:
 def _best_file(task: Task, variant: str | None) -> tuple[str, Path]:
     """Name and file of the trained policy of a task."""
     name = BEST if variant is None else f"{BEST}:{variant}"
+    known_as = nearest_name(task)
     if variant is None and hasattr(task, "n_opponents") and task.n_opponents:
-        against = list_trained(OPPONENTS).get(task.name)
+        against = list_trained(OPPONENTS).get(known_as)
         if against is not None:
             return name, against
     files = list_trained(variant)
-    skills = SKILLS.get(task.name)
-    source = task.name if task.name in files else skills
+    source = known_as if known_as in files else SKILLS.get(known_as)
     if source in files:
         return name, files[source]
     names = list(files)
@@ -228,7 +228,8 @@ def with_skills(network: Network, task: Task) -> Network:
     Raises:
         ValueError: a policy with other observations than those of its task.
     """
-    return fitted(network, task) if SKILLS.get(task.name) == network.task_name else network
+    has_skills = SKILLS.get(nearest_name(task)) == network.task_name
+    return fitted(network, task) if has_skills else network
 
 
 def _ending(variant: str | None) -> str:
