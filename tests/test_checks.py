@@ -1,3 +1,4 @@
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -113,6 +114,88 @@ def test_wrong_results_of_a_task_are_named(fault: dict[str, Array], message: str
     matches = begun(Faulty())
     with pytest.raises(ValueError, match=message):
         matches.step(zeros(matches))
+
+
+@pytest.mark.parametrize("load", ["load_state_dict", "take_over"])
+@pytest.mark.parametrize(
+    ("change", "error", "message"),
+    [
+        (lambda state: None, TypeError, "^state: expected arrays by name, got None"),
+        (lambda state: [], TypeError, r"^state: expected arrays by name, got \[\]"),
+        (
+            lambda state: state | {"simulator": None},
+            TypeError,
+            "^state: expected an array for 'simulator', got None",
+        ),
+        (
+            lambda state: state | {"simulator": np.zeros(3)},
+            TypeError,
+            r"^state: expected uint8 \(bytes,\) for 'simulator', got float64 \(3,\)",
+        ),
+        (
+            lambda state: {name: array.tolist() for name, array in state.items()},
+            TypeError,
+            r"^state: expected an array for 'simulator', got \[",
+        ),
+        (lambda state: {}, ValueError, "^state: missing or unknown"),
+        (
+            lambda state: state | {"frame": np.full_like(state["frame"], np.nan)},
+            ValueError,
+            "^state: expected finite numbers for 'frame', got nan",
+        ),
+        (
+            lambda state: state | {"commands": np.full_like(state["commands"], np.inf)},
+            ValueError,
+            "^state: expected finite numbers for 'commands', got inf",
+        ),
+        (
+            lambda state: state | {"steps": state["steps"] - 99},
+            ValueError,
+            "^state: expected at least 0 for 'steps', got -99",
+        ),
+        (
+            lambda state: state | {"starts": np.zeros((1, 3), np.float32)},
+            ValueError,
+            "^state: expected states of this task for 'starts'",
+        ),
+    ],
+)
+def test_a_damaged_state_is_refused_without_a_change(
+    load: str, change: Callable[[dict[str, Any]], Any], error: type[Exception], message: str
+) -> None:
+    matches = begun(Crowd(), controllers={"yellow": "ou"})
+    before = matches.state_dict()
+    with pytest.raises(error, match=message):
+        getattr(matches, load)(change(matches.state_dict()))
+    after = matches.state_dict()
+    assert all(same(after[name], before[name]) for name in before)
+
+
+@pytest.mark.parametrize(
+    ("argument", "settings"),
+    [
+        ("history", {"history": 2}),
+        ("sensing", {"sensing": "vsss"}),
+        ("randomization", {"randomization": {"robot.mass": (0.9, 1.1)}}),
+    ],
+)
+def test_a_state_of_matches_with_another_argument_names_it(
+    argument: str, settings: dict[str, Any]
+) -> None:
+    matches, other = (Matches("VSSSelfPlay-v0", 2, **each) for each in ({}, settings))
+    state = other.state_dict()
+    with pytest.raises(ValueError, match=f"same {argument}$"):
+        matches.load_state_dict(state)
+    with pytest.raises(ValueError, match=f"same {argument}$"):
+        other.load_state_dict(matches.state_dict())
+
+
+def test_numbers_of_authors_may_be_no_numbers() -> None:
+    matches = Matches("SSLDribbling-v0", 2, controllers={"blue_0": "weave"})
+    matches.reset()
+    state = matches.state_dict()
+    assert any(np.isnan(array).any() for array in state.values() if array.dtype.kind == "f")
+    matches.load_state_dict(state)
 
 
 def test_a_state_of_other_matches_is_refused_without_a_change() -> None:
