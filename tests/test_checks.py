@@ -57,6 +57,7 @@ def test_large_actions_are_clipped_and_float64_is_cast() -> None:
         ({"worlds": True}, TypeError, "worlds: expected a whole number"),
         ({"threads": 0}, ValueError, "threads: expected at least 1"),
         ({"seed": -1}, ValueError, "seed: expected at least 0"),
+        ({"max_steps": True}, TypeError, "max_steps: expected a whole number, got True"),
         ({"autoreset": "always"}, ValueError, "autoreset: expected one of.*same_step"),
         ({"controllers": {"green": "ou"}}, ValueError, r"unknown \['green'\].*'all', 'blue'"),
         ({"controllers": {"blue_3": "ou"}}, ValueError, "unknown"),
@@ -81,6 +82,7 @@ def test_wrong_options_are_refused(
     [
         ({"seed": -1}, ValueError, "seed: expected at least 0"),
         ({"seed": "x"}, TypeError, "seed: expected a whole number"),
+        ({"seed": np.array(1.5)}, TypeError, "seed: expected a whole number, got 1.5"),
         ({"mask": np.ones(4, np.bool_)}, ValueError, r"mask: expected bool \(5,\)"),
         ({"mask": np.ones(5)}, ValueError, "mask: expected bool"),
         ({"rows": np.zeros((5, 3), np.float32)}, ValueError, r"rows: expected shape \(5, 89\)"),
@@ -91,6 +93,10 @@ def test_wrong_resets_are_refused(
 ) -> None:
     with pytest.raises(error, match=message):
         begun().reset(**reset)
+
+
+def test_an_array_without_axes_is_the_number_in_it() -> None:
+    assert same(begun().reset(seed=np.array(3)), begun().reset(seed=3))  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(

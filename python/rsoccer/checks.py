@@ -156,6 +156,8 @@ def seeds(value: object, n: int) -> list[int | None] | None:
     """
     if value is None:
         return None
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        value = value.item()
     if not isinstance(value, list | tuple | np.ndarray):
         first = integer("seed", value, 0)
         return list(range(first, first + n))

@@ -7,13 +7,13 @@ callback from which it can be called.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Final
 
 from rsoccer import checks
 from rsoccer.evaluate import Evaluation, evaluate, matches_per_side
+from rsoccer.files import as_path
 from rsoccer.lineup import lineup, opponents_of, task_for
 from rsoccer.matches import Matches
 from rsoccer.policies import Policy, PolicyLike, check_policy_like, name_of, trained_on
@@ -204,9 +204,7 @@ def _checked_opponents(opponents: object) -> tuple[PolicyLike, ...]:
 
 def _checked_folder(folder: object) -> Path:
     """A folder that exists."""
-    if not isinstance(folder, str | os.PathLike):
-        raise TypeError(f"folder: expected a path, got {folder!r}")
-    path = Path(folder)
+    path = as_path("folder", folder)
     if not path.is_dir():
         raise ValueError(f"folder: expected one that exists, got {folder}")
     return path
