@@ -75,7 +75,7 @@ def number(name: str, value: object) -> float:
     try:
         return float(value)
     except OverflowError:
-        return math.inf if value > 0 else -math.inf
+        return -math.inf if value < 0 else math.inf
 
 
 def number_in_range(name: str, value: object, low: float, high: float) -> float:

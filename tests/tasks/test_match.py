@@ -151,7 +151,11 @@ def test_numbers_of_numpy_are_kept_as_those_of_python(task: Match) -> None:
         "early_end_goals": np.int64(3),
         "off": [np.str_("GOAL")],
     }
-    options = {"half_seconds": np.int64(60), "halves": np.int64(2), "knockout": np.bool_(True)}
+    options: dict[str, Any] = {
+        "half_seconds": np.int64(60),
+        "halves": np.int64(2),
+        "knockout": np.bool_(True),
+    }
     changed = replace(task, **options, referee=given)
     values = {"stop_seconds": 2.0, "early_end_goals": 3, "off": ["GOAL"]}
     plain = replace(task, half_seconds=60, halves=2, knockout=True, referee=values)

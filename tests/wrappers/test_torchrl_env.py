@@ -169,7 +169,7 @@ def test_bad_arguments_are_named() -> None:
     with pytest.raises(ValueError, match="blue_1"):
         SoccerEnv(TASK, group_map={"one": ["blue_0"]})
     with pytest.raises(TypeError, match=r"^group_map: expected names of learners by .*'x'"):
-        SoccerEnv(TASK, group_map="x")  # type: ignore[arg-type]
+        SoccerEnv(TASK, group_map="x")
     with pytest.raises(TypeError, match=r"^group_map\['one'\]: expected names of learners, got 'b"):
         SoccerEnv(TASK, group_map={"one": "blue_0"})
     learners = list(rsoccer.make_task(TASK).agents)
