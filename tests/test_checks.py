@@ -79,6 +79,7 @@ def test_large_actions_are_clipped_and_float64_is_cast() -> None:
         ({"worlds": True}, TypeError, "worlds: expected a whole number"),
         ({"threads": 0}, ValueError, "threads: expected at least 1"),
         ({"seed": -1}, ValueError, "seed: expected at least 0"),
+        ({"max_steps": True}, TypeError, "max_steps: expected a whole number, got True"),
         ({"autoreset": "always"}, ValueError, "autoreset: expected one of.*same_step"),
         ({"controllers": {"green": "ou"}}, ValueError, r"unknown \['green'\].*'all', 'blue'"),
         ({"controllers": {"blue_3": "ou"}}, ValueError, "unknown"),
@@ -103,6 +104,7 @@ def test_wrong_options_are_refused(
     [
         ({"seed": -1}, ValueError, "seed: expected at least 0"),
         ({"seed": "x"}, TypeError, "seed: expected a whole number"),
+        ({"seed": np.array(1.5)}, TypeError, "seed: expected a whole number, got 1.5"),
         ({"mask": np.ones(4, np.bool_)}, ValueError, r"mask: expected bool \(5,\)"),
         ({"mask": np.ones(5)}, ValueError, "mask: expected bool"),
         ({"rows": np.zeros((5, 3), np.float32)}, ValueError, r"rows: expected shape \(5, 89\)"),
@@ -113,6 +115,10 @@ def test_wrong_resets_are_refused(
 ) -> None:
     with pytest.raises(error, match=message):
         begun().reset(**reset)
+
+
+def test_an_array_without_axes_is_the_number_in_it() -> None:
+    assert same(begun().reset(seed=np.array(3)), begun().reset(seed=3))  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(
@@ -136,6 +142,88 @@ def test_wrong_results_of_a_task_are_named(fault: dict[str, Array], message: str
     matches = begun(Faulty())
     with pytest.raises(ValueError, match=message):
         matches.step(zeros(matches))
+
+
+@pytest.mark.parametrize("load", ["load_state_dict", "take_over"])
+@pytest.mark.parametrize(
+    ("change", "error", "message"),
+    [
+        (lambda state: None, TypeError, "^state: expected arrays by name, got None"),
+        (lambda state: [], TypeError, r"^state: expected arrays by name, got \[\]"),
+        (
+            lambda state: state | {"simulator": None},
+            TypeError,
+            "^state: expected an array for 'simulator', got None",
+        ),
+        (
+            lambda state: state | {"simulator": np.zeros(3)},
+            TypeError,
+            r"^state: expected uint8 \(bytes,\) for 'simulator', got float64 \(3,\)",
+        ),
+        (
+            lambda state: {name: array.tolist() for name, array in state.items()},
+            TypeError,
+            r"^state: expected an array for 'simulator', got \[",
+        ),
+        (lambda state: {}, ValueError, "^state: missing or unknown"),
+        (
+            lambda state: state | {"frame": np.full_like(state["frame"], np.nan)},
+            ValueError,
+            "^state: expected finite numbers for 'frame', got nan",
+        ),
+        (
+            lambda state: state | {"commands": np.full_like(state["commands"], np.inf)},
+            ValueError,
+            "^state: expected finite numbers for 'commands', got inf",
+        ),
+        (
+            lambda state: state | {"steps": state["steps"] - 99},
+            ValueError,
+            "^state: expected at least 0 for 'steps', got -99",
+        ),
+        (
+            lambda state: state | {"starts": np.zeros((1, 3), np.float32)},
+            ValueError,
+            "^state: expected states of this task for 'starts'",
+        ),
+    ],
+)
+def test_a_damaged_state_is_refused_without_a_change(
+    load: str, change: Callable[[dict[str, Any]], Any], error: type[Exception], message: str
+) -> None:
+    matches = begun(Crowd(), controllers={"yellow": "ou"})
+    before = matches.state_dict()
+    with pytest.raises(error, match=message):
+        getattr(matches, load)(change(matches.state_dict()))
+    after = matches.state_dict()
+    assert all(same(after[name], before[name]) for name in before)
+
+
+@pytest.mark.parametrize(
+    ("argument", "settings"),
+    [
+        ("history", {"history": 2}),
+        ("sensing", {"sensing": "vsss"}),
+        ("randomization", {"randomization": {"robot.mass": (0.9, 1.1)}}),
+    ],
+)
+def test_a_state_of_matches_with_another_argument_names_it(
+    argument: str, settings: dict[str, Any]
+) -> None:
+    matches, other = (Matches("VSSSelfPlay-v0", 2, **each) for each in ({}, settings))
+    state = other.state_dict()
+    with pytest.raises(ValueError, match=f"same {argument}$"):
+        matches.load_state_dict(state)
+    with pytest.raises(ValueError, match=f"same {argument}$"):
+        other.load_state_dict(matches.state_dict())
+
+
+def test_numbers_of_authors_may_be_no_numbers() -> None:
+    matches = Matches("SSLDribbling-v0", 2, controllers={"blue_0": "weave"})
+    matches.reset()
+    state = matches.state_dict()
+    assert any(np.isnan(array).any() for array in state.values() if array.dtype.kind == "f")
+    matches.load_state_dict(state)
 
 
 def test_a_state_of_other_matches_is_refused_without_a_change() -> None:

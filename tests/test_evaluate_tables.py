@@ -1,10 +1,16 @@
 """Evaluations of two-sided tasks as text and as JSON."""
 
 import json
+from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
 
 import rsoccer
-from rsoccer.evaluate import Evaluation, evaluate, table
+from rsoccer.evaluate import Evaluation, cooperation, evaluate, table, tournament
+from rsoccer.tasks import VssSelfPlay
 from tests.test_evaluate import Decided
 
 
@@ -18,6 +24,22 @@ def test_columns_are_aligned() -> None:
         end = header.index(title) + len(title)
         assert all(row[end - 1] != " " and row[end : end + 1] in ("", " ") for row in rows)
     assert str(results[0]).splitlines()[0].split() == header.split()
+
+
+@pytest.mark.parametrize(
+    "measure",
+    [
+        lambda **numbers: evaluate("zero", "zero", task=Decided(), **numbers),
+        lambda **numbers: tournament(["zero", "chase"], task=Decided(), **numbers),
+        lambda **numbers: cooperation("zero", task=VssSelfPlay(max_steps=20), **numbers),
+    ],
+    ids=["evaluate", "tournament", "cooperation"],
+)
+def test_results_with_numbers_of_numpy_go_into_json(measure: Callable[..., Any]) -> None:
+    two, seed = np.int64(2), np.int64(0)
+    found = measure(matches=two, seed=seed, worlds=two, threads=np.int64(1)).as_dict()
+    plain = measure(matches=2, seed=0, worlds=2, threads=1).as_dict()
+    assert json.dumps(found) == json.dumps(plain)
 
 
 def test_results_go_into_json() -> None:

@@ -1,6 +1,7 @@
 """Atomic writing of files, and reading of safetensors files."""
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -8,7 +9,17 @@ import numpy as np
 import pytest
 from safetensors.numpy import save
 
-from rsoccer.files import check_writable, read_safetensors, safetensors_bytes, write_atomically
+from rsoccer.files import (
+    as_path,
+    check_writable,
+    read_safetensors,
+    safetensors_bytes,
+    write_atomically,
+)
+from rsoccer.policies.evolved import Evolved
+from rsoccer.policies.network import Network
+from rsoccer.policies.onnx_policy import OnnxPolicy
+from rsoccer.replay import Replay
 
 
 def test_a_file_is_replaced_in_one_step(tmp_path: Path) -> None:
@@ -130,3 +141,11 @@ def test_half_precision_is_read_as_single_precision() -> None:
 def test_a_refused_type_is_named() -> None:
     with pytest.raises(ValueError, match="'a' should be float32 or float16, got BF16"):
         read_safetensors(file_of({"a": entry("BF16", (4,))}))
+
+
+@pytest.mark.parametrize("load", [Replay.load, Network.load, OnnxPolicy.load, Evolved.load])
+@pytest.mark.parametrize("path", [3, None, b"a.rsr"])
+def test_what_is_no_path_is_named(load: Callable[..., object], path: object) -> None:
+    with pytest.raises(TypeError, match=r"^path: expected a path, got "):
+        load(path)
+    assert as_path("path", "a") == Path("a")

@@ -543,6 +543,12 @@ def test_varied_numbers_stay_with_an_expected_forecast() -> None:
     assert not same(blue.rows, yellow.rows)
 
 
+@pytest.mark.parametrize("asked", [True, 3])
+def test_what_has_no_names_of_teams_is_refused(asked: Any) -> None:  # noqa: ANN401
+    with pytest.raises(TypeError, match=rf"^forecasting: expected some of .*, got {asked}"):
+        Matches("VSS-v0", sensing=Sensing(**LATE), forecasting=asked)
+
+
 @pytest.mark.parametrize("asked", ["blue", ["green"], ["blue", 3]])
 def test_unknown_teams_are_asked_in_vain(asked: Any) -> None:  # noqa: ANN401
     with pytest.raises(ValueError, match=r"forecasting: expected some of \['blue', 'yellow'\]"):

@@ -54,6 +54,17 @@ def test_tasks_of_one_team_have_no_opponents() -> None:
     assert list(scores) == ["evaluation/reached_default"]
 
 
+def test_episodes_draw_numbers_as_those_of_evaluate(tmp_path: Path) -> None:
+    ranges = {"robot.mass": (0.5, 2.0)}
+    measured = MatchEvaluation(
+        ("chase",), matches=2, folder=tmp_path, seconds=0.2, randomization=ranges
+    )
+    measured(make_policy("best", "VSS-v0"), 0)
+    expected = rsoccer.evaluate("best", "chase", 2, task="VSS-v0", randomization=ranges)
+    assert measured.results[0][1][0].returns == expected.returns
+    assert expected.returns != rsoccer.evaluate("best", "chase", 2, task="VSS-v0").returns
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
@@ -64,6 +75,23 @@ def test_tasks_of_one_team_have_no_opponents() -> None:
         ({"seconds": 0.0}, "seconds"),
         ({"task": "Nothing-v0"}, "unknown task"),
         ({"folder": "/nowhere"}, "folder: expected one that exists, got /nowhere"),
+        ({"folder": 3}, "folder: expected a path, got 3"),
+        ({"opponents": 3}, "opponents: expected several policies, got 3"),
+        ({"opponents": ["nope"]}, "unknown policy 'nope'"),
+        (
+            {"opponents": ["best"], "task": "SSLGoToBall-v0"},
+            "opponent: SSLGoToBall-v0 has one team",
+        ),
+        ({"matches": 3, "task": "VSSSelfPlay-v0"}, "matches: expected an even number"),
+        ({"threads": 0}, "threads: expected at least 1, got 0"),
+        ({"threads": True}, "threads: expected a whole number, got True"),
+        ({"threads": "x"}, "threads: expected a whole number, got 'x'"),
+        ({"sensing": 3}, "sensing: expected a rsoccer.Sensing"),
+        ({"sensing": "nope"}, "sensing.*nope"),
+        ({"randomization": 3}, "randomization: expected distributions by name, got 3"),
+        ({"randomization": {"x": 1}}, "randomization: expected one of .*, got 'x'"),
+        ({"randomization": {"robot.mass": 10**400}}, "expected two finite numbers"),
+        ({"randomization": {"ball.mass": 1e9}, "task": "VSS-v0"}, "expected values from"),
     ],
 )
 def test_bad_arguments_are_refused(arguments: dict[str, object], message: str) -> None:

@@ -88,6 +88,12 @@ def test_a_factory_with_other_arguments_is_named() -> None:
     assert isinstance(error.value.__cause__, TypeError)
 
 
+def test_a_text_of_a_function_with_arguments_is_no_sensor_model() -> None:
+    message = r"^sensing: expected a model or a function without arguments, got .*Matches.*'task'"
+    with pytest.raises(TypeError, match=message):
+        Matches("VSS-v0", sensing="rsoccer:Matches")
+
+
 def test_the_error_of_a_factory_is_its_own() -> None:
     def make(config: object, worlds: int, threads: object) -> Any:  # noqa: ANN401
         raise ConnectionError("no robots")

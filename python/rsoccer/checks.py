@@ -57,6 +57,27 @@ def integer_in_range(name: str, value: object, low: int, high: int) -> int:
     return number
 
 
+def number(name: str, value: object) -> float:
+    """Validate a number, which may be infinite or NaN.
+
+    Args:
+        name: name of the argument, for the error.
+        value: the argument.
+
+    Returns:
+        The value as a float; infinity for one beyond the range of floats.
+
+    Raises:
+        TypeError: not a number; bools are refused too.
+    """
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise TypeError(f"{name}: expected a number, got {value!r}")
+    try:
+        return float(value)
+    except OverflowError:
+        return -math.inf if value < 0 else math.inf
+
+
 def number_in_range(name: str, value: object, low: float, high: float) -> float:
     """Validate a finite number from `low` to `high`, both included.
 
@@ -73,11 +94,10 @@ def number_in_range(name: str, value: object, low: float, high: float) -> float:
         TypeError: not a number; bools are refused too.
         ValueError: outside the range, or NaN.
     """
-    if isinstance(value, bool) or not isinstance(value, Real):
-        raise TypeError(f"{name}: expected a number, got {value!r}")
-    if not low <= float(value) <= high:  # refuses NaN too
+    real = number(name, value)
+    if not low <= real <= high:  # refuses NaN too
         raise ValueError(f"{name}: expected {low:g} to {high:g}, got {value}")
-    return float(value)
+    return real
 
 
 def positive_number(name: str, value: object) -> float:
@@ -94,11 +114,10 @@ def positive_number(name: str, value: object) -> float:
         TypeError: not a number; bools are refused too.
         ValueError: 0 or less, infinite, or NaN.
     """
-    if isinstance(value, bool) or not isinstance(value, Real):
-        raise TypeError(f"{name}: expected a number, got {value!r}")
-    if not 0.0 < float(value) < math.inf:
+    real = number(name, value)
+    if not 0.0 < real < math.inf:
         raise ValueError(f"{name}: expected a positive number, got {value}")
-    return float(value)
+    return real
 
 
 def boolean(name: str, value: object) -> bool:
@@ -137,6 +156,8 @@ def seeds(value: object, n: int) -> list[int | None] | None:
     """
     if value is None:
         return None
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        value = value.item()
     if not isinstance(value, list | tuple | np.ndarray):
         first = integer("seed", value, 0)
         return list(range(first, first + n))

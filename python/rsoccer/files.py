@@ -17,6 +17,21 @@ LENGTH_BYTES: Final = 8
 """Bytes of the length of the header, with which a safetensors file begins."""
 
 
+def as_path(name: str, value: object) -> Path:
+    """Return the path that an argument is.
+
+    Args:
+        name: name of the argument, for the error.
+        value: the argument.
+
+    Raises:
+        TypeError: neither text nor a path.
+    """
+    if not isinstance(value, str | os.PathLike):
+        raise TypeError(f"{name}: expected a path, got {value!r}")
+    return Path(value)
+
+
 def write_atomically(path: Path, content: bytes) -> None:
     """Replace a file in one step, through a temporary file in the same folder.
 

@@ -7,19 +7,23 @@ callback from which it can be called.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Final
 
 from rsoccer import checks
-from rsoccer.evaluate import Evaluation, evaluate
+from rsoccer.evaluate import Evaluation, evaluate, matches_per_side
+from rsoccer.files import as_path
 from rsoccer.lineup import lineup, opponents_of, task_for
+from rsoccer.matches import Matches
 from rsoccer.policies import Policy, PolicyLike, check_policy_like, name_of, trained_on
 from rsoccer.policies.labels import labels
+from rsoccer.randomization import Ranges
+from rsoccer.randomization import check as check_ranges
 from rsoccer.registry import as_task
 from rsoccer.replay.recorder import record_replay
-from rsoccer.sources import SensingSource
-from rsoccer.task import Task
+from rsoccer.sources import SensingSource, make_sensing
+from rsoccer.task import LEARN, Task
 
 PREFIX: Final = "evaluation/"
 """Begin of the names of scores."""
@@ -60,8 +64,11 @@ class MatchEvaluation:
         seconds: float = 30.0,
         threads: int | None = None,
         sensing: SensingSource | None = None,
+        randomization: Ranges | None = None,
     ) -> None:
         """Choose opponents and intervals.
+
+        What depends on the task is checked here if `task` is given, else with the first policy.
 
         Args:
             opponents: policies of the other team, their names or files; none for those that the
@@ -75,25 +82,29 @@ class MatchEvaluation:
             seconds: duration of the match on a page, s, above 0.
             threads: threads of the simulator, at least 1; None for all.
             sensing: what robots know of the true state, as for `Matches`.
+            randomization: numbers that each episode draws, as for `Matches`.
 
         Raises:
+            FileNotFoundError: no such policy file among the opponents.
+            ImportError: a text "module:name" whose module or name does not exist.
             TypeError: an argument of the wrong type.
-            ValueError: a number out of range, an unknown task, or no such folder.
+            ValueError: a number out of range, an odd number of matches in a two-sided task, an
+                unknown task, opponent or preset, one that does not fit the task, or no such folder.
         """
-        if isinstance(opponents, str):
-            raise TypeError(f"opponents: expected several policies, got {opponents!r}")
-        for opponent in opponents:
-            check_policy_like("opponents", opponent)
-        self.opponents = tuple(opponents)
+        self.opponents = _checked_opponents(opponents)
         self.every = checks.integer("every", every, 1)
         self.matches = checks.integer("matches", matches, 1)
         self.seed = checks.integer("seed", seed, 0)
         self.task = None if task is None else as_task(task)
-        self.folder = None if folder is None else Path(folder)
-        if self.folder is not None and not self.folder.is_dir():
-            raise ValueError(f"folder: expected one that exists, got {folder}")
+        self.folder = None if folder is None else _checked_folder(folder)
         self.seconds = checks.positive_number("seconds", seconds)
-        self.threads, self.sensing = threads, sensing
+        self.threads = None if threads is None else checks.integer("threads", threads, 1)
+        make_sensing(sensing)  # it refuses what is none
+        if randomization is not None:
+            check_ranges(randomization)
+        self.sensing, self.randomization = sensing, randomization
+        if self.task is not None:
+            self._check_matches(self.task)
         self.results: list[tuple[int, list[Evaluation]]] = []
         self.pages: list[Path] = []
         self._due_at, self._last_samples = 0, 0
@@ -105,6 +116,17 @@ class MatchEvaluation:
         It is there where `task` is given, as then the name in the policy is not used.
         """
         return {} if self.task is None else {"task_name": self.task.name}
+
+    def _check_matches(self, task: Task) -> None:
+        """Refuse what cannot be played in a task."""
+        matches_per_side(task, self.matches)
+        for opponent in self.opponents or (None,):
+            Matches(
+                task,
+                controllers=lineup(task, LEARN, opponent),
+                sensing=self.sensing,
+                randomization=self.randomization,
+            ).close()
 
     def is_due(self, samples: int) -> bool:
         """Return whether the policy should be played: at first, and `every` samples later.
@@ -147,6 +169,7 @@ class MatchEvaluation:
                 task=task,
                 threads=self.threads,
                 sensing=self.sensing,
+                randomization=self.randomization,
             )
             for opponent in self.opponents or (None,)
         ]
@@ -171,5 +194,25 @@ class MatchEvaluation:
             self.seconds,
             names=(f"{samples:,} SAMPLES", other.upper()),
             sensing=self.sensing,
+            randomization=self.randomization,
         )
         return replay.save_html(self.folder / f"match_{samples}.html")
+
+
+def _checked_opponents(opponents: object) -> tuple[PolicyLike, ...]:
+    """Several policies that exist."""
+    if isinstance(opponents, str) or not isinstance(opponents, Iterable):
+        raise TypeError(f"opponents: expected several policies, got {opponents!r}")
+    found = tuple(opponents)
+    for opponent in found:
+        check_policy_like("opponents", opponent)
+        trained_on(opponent)  # it refuses an unknown name, and files that cannot be read
+    return found
+
+
+def _checked_folder(folder: object) -> Path:
+    """A folder that exists."""
+    path = as_path("folder", folder)
+    if not path.is_dir():
+        raise ValueError(f"folder: expected one that exists, got {folder}")
+    return path

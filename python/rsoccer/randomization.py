@@ -46,6 +46,12 @@ _OF_BOTH: Final = {
     "position_noise": ("ball_position_noise", "robot_position_noise"),
     "missing": ("missing_balls", "missing_robots"),
 }
+_NUMBERS: Final = {
+    "ball": BALL_PARAMETERS,
+    "robot": ROBOT_PARAMETERS,
+    "sensing": (*SENSING_NUMBERS, *_OF_BOTH),
+}
+"""Names by the part before the point."""
 
 
 @dataclass(frozen=True)
@@ -175,22 +181,20 @@ class Randomization:
         """
         if ranges is None:
             return cls(None, None)
-        _check_names(ranges)
+        check(ranges)
         parameters: list[tuple[tuple[int, ...], Distribution]] = []
         numbers: list[tuple[tuple[int, ...], Distribution]] = []
         # By name, so that equal mappings draw equally; one noise of both bodies before that of one.
         for name in sorted(ranges, key=lambda name: (name.partition(".")[2] not in _OF_BOTH, name)):
             distribution = Distribution.of(name, ranges[name])
             owner, _, number = name.partition(".")
-            if owner == "ball" and number in BALL_PARAMETERS:
+            if owner == "ball":
                 parameters.append(_of_ball(name, number, distribution, config))
-            elif owner == "robot" and number in ROBOT_PARAMETERS:
+            elif owner == "robot":
                 parameters.append(_of_robots(name, number, distribution, config))
-            elif owner == "sensing" and (number in SENSING_NUMBERS or number in _OF_BOTH):
+            else:
                 both = _OF_BOTH.get(number, (number,))
                 numbers += [_of_senses(each, distribution, sensing or Sensing()) for each in both]
-            else:
-                raise ValueError(f"randomization: expected {_known()}, got {name!r}")
         ones = np.ones(config.parameters_size, np.float32)
         values = json.loads((sensing or Sensing()).to_json())
         base = np.array([values[name] for name in SENSING_NUMBERS], np.float32)
@@ -198,6 +202,24 @@ class Randomization:
             NumberRanges(ones, tuple(parameters)) if parameters else None,
             NumberRanges(base, tuple(numbers)) if numbers else None,
         )
+
+
+def check(ranges: Ranges) -> None:
+    """Check names and distributions, as far as they depend on no models.
+
+    Args:
+        ranges: distributions by name.
+
+    Raises:
+        TypeError: no mapping, or a distribution of another type.
+        ValueError: an unknown name, or a distribution that is none.
+    """
+    _check_names(ranges)
+    for name, value in ranges.items():
+        owner, _, number = name.partition(".")
+        if number not in _NUMBERS.get(owner, ()):
+            raise ValueError(f"randomization: expected {_known()}, got {name!r}")
+        Distribution.of(name, value)
 
 
 def written(ranges: Ranges) -> dict[str, Any]:
@@ -255,14 +277,17 @@ def _listed(name: str, value: object) -> list[Any]:
 
 
 def _is_number(value: object) -> bool:
-    return isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
+    """Whether a value is a number that floats can have, neither infinite nor NaN."""
+    try:
+        return isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
+    except OverflowError:
+        return False
 
 
 def _known() -> str:
     """All names, for errors."""
-    owners = {"ball": BALL_PARAMETERS, "robot": ROBOT_PARAMETERS, "sensing": SENSING_NUMBERS}
     return "one of " + ", ".join(
-        f"{owner}.{number}" for owner, numbers in owners.items() for number in numbers
+        f"{owner}.{number}" for owner, numbers in _NUMBERS.items() for number in numbers
     )
 
 

@@ -85,7 +85,8 @@ def make_simulator(
     factory: Any = _found(source)
     made: Any = factory
     if callable(factory):
-        _check_signature(factory, config, worlds, threads)
+        expected = "a function (config, worlds, threads)"
+        _check_signature("simulator", expected, factory, config, worlds, threads)
         made = factory(config, worlds, threads)
     if not callable(getattr(made, "step", None)):
         expected = "a simulator, a function (config, worlds, threads) that makes one, or its text"
@@ -95,7 +96,9 @@ def make_simulator(
     return stepper
 
 
-def _check_signature(factory: Callable[..., object], *arguments: object) -> None:
+def _check_signature(
+    argument: str, expected: str, factory: Callable[..., object], *arguments: object
+) -> None:
     """Refuse a factory that does not take the arguments; errors in it are its own."""
     try:
         signature = inspect.signature(factory)
@@ -105,8 +108,7 @@ def _check_signature(factory: Callable[..., object], *arguments: object) -> None
         signature.bind(*arguments)
     except TypeError as error:
         raise TypeError(
-            f"simulator: expected a function (config, worlds, threads), got {factory!r} with "
-            f"{signature}: {error}"
+            f"{argument}: expected {expected}, got {factory!r} with {signature}: {error}"
         ) from error
 
 
@@ -158,13 +160,15 @@ def make_sensing(source: SensingSource | None) -> Sensing | SensorModel | None:
 
     Raises:
         ImportError: a text whose module or name does not exist.
-        TypeError: no sensor model.
+        TypeError: no sensor model, or a function that takes arguments.
         ValueError: a text that is no preset's name.
     """
     model: Any = source
     if isinstance(source, str) and ":" in source:
         model = plugins.find("sensing", source)
-        model = model() if callable(model) else model
+        if callable(model):
+            _check_signature("sensing", "a model or a function without arguments", model)
+            model = model()
     elif isinstance(source, str):
         model = Sensing(source)
     methods = ("columns", "begin", "sense")

@@ -42,6 +42,8 @@ GroupMap = Mapping[str, Sequence[str]]
 """Names of the learners by group."""
 ENDS = ("done", "terminated", "truncated")
 """Keys of the ends of episodes."""
+KEYS = (*ENDS, "state", "metrics", "next", "_reset")
+"""Keys beside those of groups."""
 
 
 class SoccerEnv(EnvBase):
@@ -317,6 +319,13 @@ def _groups(
     if isinstance(given, MarlGroupMapType):
         found: dict[str, list[str]] = given.get_group_map(list(agents))
         return found
+    if not isinstance(given, Mapping):
+        raise TypeError(f"group_map: expected names of learners by group, got {given!r}")
+    for group, names in given.items():
+        if isinstance(names, str) or not isinstance(names, Sequence):
+            raise TypeError(f"group_map[{group!r}]: expected names of learners, got {names!r}")
+    if taken := [group for group in given if group in KEYS]:
+        raise ValueError(f"group_map: expected other names of groups than {KEYS}, got {taken}")
     groups = {group: list(names) for group, names in given.items()}
     check_marl_grouping(groups, list(agents))
     return groups

@@ -1,5 +1,6 @@
 """`--task-options` of the commands that play a task."""
 
+import math
 import re
 from pathlib import Path
 
@@ -58,11 +59,19 @@ def test_a_number_in_the_place_of_a_policy_is_one_line(
         ("['normal', 1.0, 0.1]", ["normal", 1.0, 0.1]),
         ("1.5", 1.5),
         ("normal,one,two", "normal,one,two"),
+        ("1,inf", (1.0, math.inf)),
+        ("inf", math.inf),
     ],
 )
 def test_distributions_as_words(word: str, value: object) -> None:
     read = RANDOMIZATION.instance_from_str([f"robot.mass={word}"])
     assert read == {"robot.mass": value}
+
+
+def test_a_number_that_is_none_is_no_kind(capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main(["evaluate", "chase", "--randomization", "robot.mass=nan,1"]) == 2
+    message = "rsoccer: randomization['robot.mass']: expected two finite numbers, got (nan, 1.0)"
+    assert message in capsys.readouterr().err
 
 
 def test_a_recorded_match_has_them(tmp_path: Path) -> None:

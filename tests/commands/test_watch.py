@@ -101,7 +101,11 @@ def test_watch_plays_a_replay_in_a_window(tmp_path: Path) -> None:
         (["--html", "match.txt"], "html: expected a name ending in .html, got match.txt"),
         (["--save", "match.html"], "save: expected a name ending in .rsr, got match.html"),
         (["--save", "absent/match.rsr"], "save: expected a file in a folder that exists"),
-        (["--save", "match.rsr", "--snapshots", "0"], "snapshot_interval: expected a positive"),
+        (
+            ["--save", "match.rsr", "--snapshots", "0"],
+            " snapshots: expected a positive number, got 0",
+        ),
+        (["--save", "match.rsr", "--snapshots", "-1"], " snapshots: expected a positive number"),
         (["--snapshots", "5"], "snapshots: expected none without --save, got 5.0"),
     ],
 )

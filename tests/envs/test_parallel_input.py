@@ -54,7 +54,9 @@ def test_the_time_limit_has_two_names() -> None:
     [
         (lambda: parallel_env("VSS-v9"), "unknown task 'VSS-v9'.*VSSMulti-v0"),
         (lambda: parallel_env(SELF_PLAY, bal_speed=1.0), "unexpected .* 'bal_speed'.*ball_speed"),
-        (lambda: parallel_env(SELF_PLAY, max_cycles=0), "max_steps.*at least 1.*0"),
+        (lambda: parallel_env(SELF_PLAY, max_cycles=0), "^max_cycles: expected at least 1, got 0"),
+        (lambda: rsoccer.env(SELF_PLAY, max_cycles=True), "^max_cycles: expected a whole .*True"),
+        (lambda: parallel_env(SELF_PLAY, max_steps=0), "^max_steps: expected at least 1, got 0"),
         (lambda: parallel_env(SELF_PLAY, "ansi"), "render_mode.*rgb_array.*'ansi'"),
         (lambda: parallel_env(SELF_PLAY, controllers={"red": "ou"}), "unknown.*red.*blue_0"),
         (lambda: parallel_env(SELF_PLAY, controllers={"blue_0": "oo"}), "'oo'.*chase"),
@@ -119,10 +121,18 @@ def test_options_must_be_a_dictionary() -> None:
         parallel_env(SELF_PLAY).reset(options=options)
 
 
-@pytest.mark.parametrize(("seed", "error"), [(-1, ValueError), (1.5, TypeError), ("a", TypeError)])
-def test_wrong_seeds_are_refused(seed: Any, error: type[Exception]) -> None:  # noqa: ANN401
-    with pytest.raises(error, match="seed: expected"):
-        parallel_env(SELF_PLAY).reset(seed=seed)
+@pytest.mark.parametrize("make", [parallel_env, rsoccer.env])
+@pytest.mark.parametrize(
+    ("seed", "error"),
+    [(-1, ValueError), (1.5, TypeError), ("a", TypeError), ([1], TypeError), ((1,), TypeError)],
+)
+def test_wrong_seeds_are_refused(
+    make: Callable[[str], Any],
+    seed: Any,  # noqa: ANN401
+    error: type[Exception],
+) -> None:
+    with pytest.raises(error, match=r"^seed: expected"):
+        make(SELF_PLAY).reset(seed=seed)
 
 
 # -- Actions ----------------------------------------------------------------------------------
@@ -198,6 +208,17 @@ def test_errors_of_actions_name_the_agent_and_change_nothing(
         match.step(actions)
     valid = random_actions(match, np.random.default_rng(0))
     assert comparable(match.step(valid)[0]) == comparable(twin.step(valid)[0])
+
+
+@pytest.mark.parametrize("action", [[0], np.array([0]), [[0]], [0.5]])
+def test_an_index_in_a_list_is_no_whole_number(action: object) -> None:
+    """Formerly its vector was said to have a wrong shape."""
+    match = parallel_env("VSSMulti-v0", discrete=True)
+    match.reset(seed=0)
+    actions: dict[str, Any] = dict.fromkeys(match.agents, 0)
+    with pytest.raises(ValueError, match=r"^actions\['blue_1'\]: expected a whole number, got "):
+        match.step({**actions, "blue_1": action})
+    match.step(actions)
 
 
 @given(

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from rsoccer.envs.robots_vector import robots_vector_env
 from rsoccer.envs.vector import vector_env
 from tests.helpers import comparable
 from tests.parallel_matches import SELF_PLAY, crowded, shot_at
@@ -38,6 +39,16 @@ N = 3
             "learner: expected (.*)'ego'",
         ),
         (lambda: vector_env("VSS-v0", N, max_steps=0), ValueError, "max_steps.*at least 1"),
+        (
+            lambda: vector_env("VSS-v0", N, max_episode_steps=0),
+            ValueError,
+            "^max_episode_steps: expected at least 1, got 0",
+        ),
+        (
+            lambda: robots_vector_env("VSS-v0", N, max_episode_steps=True),
+            TypeError,
+            "^max_episode_steps: expected a whole number, got True",
+        ),
     ],
 )
 def test_wrong_options_are_named(

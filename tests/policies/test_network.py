@@ -228,6 +228,32 @@ def test_weights_that_do_not_fit_are_refused() -> None:
         Network.from_layers(task, [(np.ones((2, task.layout.size)), np.ones(2))], [0.1])
 
 
+@pytest.mark.parametrize(
+    ("arguments", "error", "message"),
+    [
+        ({"randomization": {"x": 1}}, ValueError, "randomization: expected one of .*, got 'x'"),
+        ({"randomization": 3}, TypeError, "randomization: expected distributions by name, got 3"),
+        ({"clip": True}, TypeError, "clip: expected a number, got True"),
+        ({"clip": 0.0}, ValueError, "clip: expected a positive number, got 0.0"),
+        ({"action_repeat": True}, TypeError, "action_repeat: expected a whole number, got True"),
+        (
+            {"mean": [1.0, 2.0]},
+            ValueError,
+            r"mean: expected a number or shape \(\d+,\), got \(2,\)",
+        ),
+        ({"std": np.ones((1, 3))}, ValueError, r"std: expected a number or shape .*got \(1, 3\)"),
+        ({"mean": "x"}, TypeError, "mean: expected numbers, got 'x'"),
+    ],
+)
+def test_other_arguments_that_do_not_fit_are_refused(
+    arguments: dict[str, Any], error: type[Exception], message: str
+) -> None:
+    task = make_task("VSS-v0")
+    layers = [(np.ones((2, task.layout.size)), np.ones(2))]
+    with pytest.raises(error, match=f"^{message}"):
+        Network.from_layers(task, layers, **arguments)
+
+
 @pytest.mark.parametrize("module", [nn.Tanh, nn.ReLU, nn.LeakyReLU, nn.ELU, nn.SiLU])
 def test_activations_are_those_of_torch(module: type[nn.Module]) -> None:
     task = make_task("VSS-v0")

@@ -65,8 +65,8 @@ def test_a_loaded_state_of_a_match_that_has_ended_adds_no_frame() -> None:
 
 
 def test_a_state_that_is_refused_leaves_the_record_at_the_episode_that_has_begun() -> None:
-    matches = played(0)
+    matches, state = played(0), played(7).state_dict()
     recorder = Recorder(matches, attach=True)
-    with pytest.raises(ValueError, match="state: missing or unknown"):
-        matches.take_over({})
+    with pytest.raises(ValueError, match="snapshot"):
+        matches.take_over({**state, "simulator": state["simulator"][:-1]})
     assert same(recorder.replay().rows, matches.frame.rows[:1])

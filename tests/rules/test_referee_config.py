@@ -83,11 +83,25 @@ def test_configurations_are_values() -> None:
         ({"ball_speed": -1}, ValueError, "ball_speed: expected a finite number, .* 0, got -1"),
         ({"ball_speed": math.inf}, ValueError, "ball_speed: expected a finite .*, got inf"),
         ({"ball_speed": math.nan}, ValueError, "ball_speed: expected a finite .*, got nan"),
+        ({"ball_speed": 10**400}, ValueError, "ball_speed: expected a finite .*, got 1000"),
+        ({"halves": 0}, ValueError, "^halves: expected 1 or 2, got 0"),
+        ({"halves": 1.5}, ValueError, "^halves: expected a whole number, got 1.5"),
+        ({"halves": 3}, ValueError, "^halves: expected 1 or 2, got 3"),
+        ({"fouls_per_card": 1.5}, ValueError, "^fouls_per_card: expected a whole number, got 1.5"),
+        ({"area_robots": 2}, ValueError, "^referee: expected one of .*, got 'area_robots'"),
+        ({"placement_error": 0.1}, ValueError, "^referee: expected one of .*'placement_error'"),
     ],
 )
 def test_a_wrong_value_is_named(values: dict[str, Any], error: type, message: str) -> None:
     with pytest.raises(error, match=message):
         RefereeConfig("ssl_2026_b", **values)
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+def test_every_preset_can_have_its_own_values_and_an_early_end(preset: str) -> None:
+    config = RefereeConfig(preset)
+    assert config.replaced(**config) == config
+    assert config.replaced(early_end_goals=3).early_end_goals == 3.0
 
 
 @pytest.mark.parametrize(

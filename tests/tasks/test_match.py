@@ -1,5 +1,6 @@
 """Whole matches of both leagues under a referee: options, rewards, metrics, ends, saved states."""
 
+import json
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -73,6 +74,17 @@ def stepped(matches: Matches, until: Callable[[Outcome], bool], limit: int = 200
         ({"referee": {"speed": 3}}, ValueError, "^referee: expected one of .*, got 'speed'"),
         ({"referee": {"ball_speed": -1}}, ValueError, "^ball_speed: expected .*, got -1"),
         ({"referee": {"off": ["OFFSIDE"]}}, ValueError, "^off: expected names of .*'OFFSIDE'"),
+        ({"referee": {1: 2}}, TypeError, "^referee: expected names as text, got 1$"),
+        ({"referee": {"half_seconds": 5}}, ValueError, "^referee: 'half_seconds' is an option"),
+        ({"referee": {"halves": 2}}, ValueError, "option of the task: give halves=...$"),
+        ({"referee": {"clock": "running"}}, ValueError, "^referee: 'clock' is an option"),
+        ({"referee": {"shootout_kicks": 3}}, ValueError, "'shootout_kicks' holds with knockout"),
+        (
+            {"referee": {"extra_half_seconds": 5}},
+            ValueError,
+            "^referee: 'extra_half_seconds' holds",
+        ),
+        ({"referee": {"early_end_goals": 1.5}}, ValueError, "^early_end_goals: expected a whole"),
         ({"n_blue": 0}, ValueError, "n_blue: expected at least 1, got 0"),
         ({"n_yellow": 0}, ValueError, "n_yellow: expected at least 1, got 0"),
     ],
@@ -109,10 +121,50 @@ def test_options_are_numbers_of_the_rules(task: Match) -> None:
     knockout = replace(task, knockout=True).referee_config
     assert knockout.extra_half_seconds > 0.0
     assert knockout.shootout_kicks > 0.0
-    assert (
-        replace(task, half_seconds=60, referee={"half_seconds": 90}).referee_config.half_seconds
-        == 90
-    )
+    kicks = replace(task, knockout=True, referee={"shootout_kicks": 3}).referee_config
+    assert kicks.shootout_kicks == 3.0
+
+
+@pytest.mark.parametrize(
+    ("task", "value", "message"),
+    [
+        (VssMatch(), {"off": ["BOT_PUSHED_BOT"]}, "^off: expected names of GOAL, .*BOT_PUSHED"),
+        (VssMatch(), {"dribble_distance": 1.0}, "^referee: expected one of .*'dribble_distance'"),
+        (VssMatch(), {"placement": "robots"}, "^referee: expected one of .*got 'placement'"),
+        (VssMatch(), {"fouls_per_card": 3}, "^referee: expected one of .*got 'fouls_per_card'"),
+        (SslMatch(), {"contest_distance": 0.2}, "^referee: expected one of .*'contest_distance'"),
+        (SslMatch(), {"fouls_per_card": 1.5}, "^fouls_per_card: expected a whole number, got 1.5"),
+        (SslMatch(), {"placement": "robots"}, "^referee: 'placement' is an option of the task"),
+    ],
+)
+def test_values_that_only_the_other_league_or_another_option_has_are_refused(
+    task: Match, value: dict[str, Any], message: str
+) -> None:
+    with pytest.raises(ValueError, match=message):
+        replace(task, referee=value)
+
+
+@both
+def test_numbers_of_numpy_are_kept_as_those_of_python(task: Match) -> None:
+    given = {
+        "stop_seconds": np.float32(2),
+        "early_end_goals": np.int64(3),
+        "off": [np.str_("GOAL")],
+    }
+    options: dict[str, Any] = {
+        "half_seconds": np.int64(60),
+        "halves": np.int64(2),
+        "knockout": np.bool_(True),
+    }
+    changed = replace(task, **options, referee=given)
+    values = {"stop_seconds": 2.0, "early_end_goals": 3, "off": ["GOAL"]}
+    plain = replace(task, half_seconds=60, halves=2, knockout=True, referee=values)
+    assert changed == plain
+    assert repr(changed) == repr(plain)
+    assert changed.referee_config == plain.referee_config
+    assert json.dumps(changed.referee) == json.dumps(plain.referee)
+    kicks = SslMatch(referee={"aimless_kick": np.bool_(True)})
+    assert kicks.referee["aimless_kick"] is True
 
 
 def test_field_and_rules_follow_from_division_and_table() -> None:

@@ -174,5 +174,5 @@ def test_an_action_may_not_lack_more_than_the_optional_numbers() -> None:
     task = make_task("SSLSelfPlay-v0", chip_kick=True)
     matches = Matches(task, controllers={"all": FourNumbers()})
     matches.reset()
-    with pytest.raises(ValueError, match=r"FourNumbers: expected actions \(1, 6, 6\), got"):
+    with pytest.raises(ValueError, match=r"FourNumbers.act: expected shape \(1, 6, 6\), got"):
         matches.step(zeros(matches))

@@ -250,6 +250,25 @@ def test_options_set_the_start_of_the_next_reset() -> None:
     np.testing.assert_array_equal(mixed[[0, 6]], envs.reset()[[0, 6]])
 
 
+def test_refused_options_reset_no_match() -> None:
+    """Formerly matches without a frame of their own were reset before it was refused."""
+    envs = many("VSSMulti-v0", 3)
+    envs.seed(4)
+    envs.reset()
+    row = envs._matches.frame.rows[0].copy()
+    outside, before = row + 99.0, envs._matches.state_dict()
+    for options, message in (
+        ([{"frame": row}], "^options: expected .* each of 9 rows, got 1"),
+        ([{"frame": outside} if match == 1 else {} for match in (0, 1, 2) for _ in "abc"], ""),
+    ):
+        envs.set_options(options)
+        with pytest.raises(ValueError, match=message):
+            envs.reset()
+        after = envs._matches.state_dict()
+        for name, array in before.items():
+            np.testing.assert_array_equal(after[name], array)
+
+
 def test_attributes_and_methods_are_by_row() -> None:
     envs = many("VSSMulti-v0", 2)
     envs.reset()

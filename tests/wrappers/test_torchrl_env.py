@@ -168,6 +168,14 @@ def test_bad_arguments_are_named() -> None:
         SoccerEnv(TASK, state="yes")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="blue_1"):
         SoccerEnv(TASK, group_map={"one": ["blue_0"]})
+    with pytest.raises(TypeError, match=r"^group_map: expected names of learners by .*'x'"):
+        SoccerEnv(TASK, group_map="x")
+    with pytest.raises(TypeError, match=r"^group_map\['one'\]: expected names of learners, got 'b"):
+        SoccerEnv(TASK, group_map={"one": "blue_0"})
+    learners = list(rsoccer.make_task(TASK).agents)
+    for name in ("state", "done", "terminated", "truncated", "metrics", "next", "_reset"):
+        with pytest.raises(ValueError, match=f"^group_map: expected other names .*'{name}'"):
+            SoccerEnv(TASK, group_map={name: learners})
     for task in (TASK, rsoccer.make_task(TASK)):
         with pytest.raises(TypeError, match=r"'unknwon'.* \['worlds', 'seed', 'threads', 'contr"):
             SoccerEnv(task, unknwon=1)

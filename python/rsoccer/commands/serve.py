@@ -52,8 +52,8 @@ class Serve(Imports):
     sensing: Annotated[str | None, _SENSING] = None
     """senses: noise, delay and loss of vision, feedback and commands"""
     speed: str = "1"
-    """speed: 1 is real time, 2 is twice as fast, 0 stands still until a client sets another one, max
-    is as fast as the clients answer"""
+    """speed: 1 is real time, 2 is twice as fast, 0 stands until a client sets another, max is as
+    fast as the clients answer"""
     referee: Literal["own", "external", "off"] = "own"
     """own: the match has a referee, as game controller; external: obey one on the network"""
     host: str = "127.0.0.1"

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import ast
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any
 
 from tyro.constructors import PrimitiveConstructorSpec
 
+from rsoccer.commands.lists import some
 from rsoccer.option_words import parse_options
 from rsoccer.registry import task_with_options
 from rsoccer.task import Task
@@ -21,7 +21,7 @@ def _values_by_name(
     return PrimitiveConstructorSpec[Mapping[str, Any]](
         nargs="*",
         metavar="[NAME=VALUE [NAME=VALUE ...]]",
-        instance_from_str=parse,
+        instance_from_str=lambda words: parse(some(words)),
         is_instance=lambda value: isinstance(value, Mapping),
         str_from_instance=lambda options: [f"{name}={value!r}" for name, value in options.items()],
     )
@@ -30,14 +30,29 @@ def _values_by_name(
 def _parse_ranges(words: Sequence[str]) -> dict[str, Any]:
     """Distributions by name; one of a kind is that and its numbers, as in `normal,1.0,0.1`."""
     ranges = parse_options("randomization", words)
-    for name, value in ranges.items():
-        if isinstance(value, str) and "," in value:
-            kind, _, numbers = value.partition(",")
-            try:
-                ranges[name] = (kind, *ast.literal_eval(f"({numbers},)"))
-            except (SyntaxError, ValueError):
-                continue
-    return ranges
+    return {
+        name: _distribution(value) if isinstance(value, str) else value
+        for name, value in ranges.items()
+    }
+
+
+def _distribution(text: str) -> Any:  # noqa: ANN401  (a distribution, or what is none)
+    """A distribution from text that is no value of Python: with a kind, or with nan or inf."""
+    parts = text.split(",")
+    numbers = [_number(part) for part in parts]
+    if None not in numbers:
+        return tuple(numbers) if len(numbers) > 1 else numbers[0]
+    if len(parts) > 1 and None not in numbers[1:]:
+        return (parts[0], *numbers[1:])
+    return text
+
+
+def _number(word: str) -> float | None:
+    """The number of a word; None if it is none."""
+    try:
+        return float(word)
+    except ValueError:
+        return None
 
 
 TASK_OPTIONS = _values_by_name(partial(parse_options, "task_options"))

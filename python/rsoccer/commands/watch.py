@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Final
 
 from tyro.conf import Positional, arg
 
+from rsoccer import checks
 from rsoccer.commands.imports import Imports
 from rsoccer.commands.output import check_output, write
 from rsoccer.commands.sources import Sources
@@ -93,8 +94,10 @@ class Watch(Sources, Imports):
         check_output("video", self.video, *VIDEO_SUFFIXES)
         check_output("html", self.html, ".html")
         check_output("save", self.save, SUFFIX)
-        if self.snapshots is not None and self.save is None:
-            raise ValueError(f"snapshots: expected none without --save, got {self.snapshots}")
+        if self.snapshots is not None:
+            checks.positive_number("snapshots", self.snapshots)
+            if self.save is None:
+                raise ValueError(f"snapshots: expected none without --save, got {self.snapshots}")
         if self.subject is not None and self.subject.endswith(SUFFIX):
             self._play_replay(self._load(self.subject))
         elif self.html or self.save:

@@ -73,6 +73,8 @@ def check_actions(actions: object, agents: Sequence[str], task: Task) -> None:
         )
     for agent in agents:
         name = f"actions[{agent!r}]"
+        if task.action_table is not None and np.ndim(checks.as_array(name, actions[agent])):
+            raise ValueError(f"{name}: expected a whole number, got {actions[agent]!r}")
         try:
             row = spaces.action_vectors(task, actions[agent])
         except (TypeError, ValueError) as error:

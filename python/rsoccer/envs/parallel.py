@@ -17,7 +17,7 @@ import numpy as np
 from gymnasium.spaces import Box
 from pettingzoo import ParallelEnv
 
-from rsoccer import spaces
+from rsoccer import checks, spaces
 from rsoccer.arrays import Floats
 from rsoccer.controllers import Controllers
 from rsoccer.envs import agent_dicts
@@ -83,8 +83,8 @@ def parallel_env(
         >>> env.possible_agents
         ['blue_0', 'blue_1', 'blue_2']
     """
-    time_limit = max_steps if max_cycles is None else max_cycles
-    task = resolve_task(task, time_limit, options, parallel_env)
+    limit = ("max_steps", max_steps) if max_cycles is None else ("max_cycles", max_cycles)
+    task = resolve_task(task, limit[1], options, parallel_env, limit[0])
     return SoccerParallelEnv(
         task,
         render_mode,
@@ -268,6 +268,7 @@ class SoccerParallelEnv(ViewedMatch, PublicMatches, ParallelEnv[str, Floats, Any
                 or with bodies that overlap or are outside. Nothing has changed.
         """
         self.check_open("reset")
+        seed = None if seed is None else checks.integer("seed", seed, 0)
         rows = initial_rows(
             reset_options(options, "frame", ignored=(TESTED_OPTION,)),
             self.task,

@@ -105,8 +105,10 @@ def robots_vector_env(
         >>> envs.worlds
         4
     """
-    time_limit = max_episode_steps if max_steps is None else max_steps
-    task = resolve_task(task, time_limit, options, robots_vector_env)
+    limit = ("max_steps", max_steps)
+    if max_steps is None:
+        limit = ("max_episode_steps", max_episode_steps)
+    task = resolve_task(task, limit[1], options, robots_vector_env, limit[0])
     resolved = learner_controllers(task, learner, controllers)
     return RobotsVectorEnv(
         task,

@@ -85,9 +85,11 @@ def vector_env(
         >>> envs.action_space.shape
         (4, 2)
     """
-    time_limit = max_episode_steps if max_steps is None else max_steps
+    limit = ("max_steps", max_steps)
+    if max_steps is None:
+        limit = ("max_episode_steps", max_episode_steps)
     return SoccerVectorEnv(
-        resolve_task(task, time_limit, options, vector_env),
+        resolve_task(task, limit[1], options, vector_env, limit[0]),
         num_envs,
         render_mode,
         learner=learner,

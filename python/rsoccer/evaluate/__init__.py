@@ -92,8 +92,8 @@ def evaluate(
     task = task_for(policy) if task is None else as_task(task)
     sides = SIDES if task.two_sided else (None,)
     per_side = matches_per_side(task, matches)
-    checks.integer("seed", seed, 0)
-    checks.integer("worlds", worlds, 1)
+    seed = checks.integer("seed", seed, 0)
+    worlds = checks.integer("worlds", worlds, 1)
     threads = processors() if threads is None else checks.integer("threads", threads, 1)
     opponent_policy: Policy | None = None
     if opponent is not None:

@@ -37,7 +37,8 @@ def matches_per_side(task: Task, matches: int) -> int:
         raise ValueError(f"task: {task.name} has two sides and must name its success, got None")
     if not task.two_sided:
         return checks.integer("matches", matches, 1)
-    if checks.integer("matches", matches, 2) % 2:
+    matches = checks.integer("matches", matches, 2)
+    if matches % 2:
         raise ValueError(
             f"matches: expected an even number, as {task.name} is played from both sides, "
             f"got {matches}"

@@ -117,8 +117,8 @@ def tournament(
     if not task.two_sided:
         raise ValueError(f"task: expected one that two teams play, got {task.name}")
     per_side = matches_per_side(task, matches)
-    checks.integer("seed", seed, 0)
-    checks.integer("worlds", worlds, 1)
+    seed = checks.integer("seed", seed, 0)
+    worlds = checks.integer("worlds", worlds, 1)
     threads = processors() if threads is None else checks.integer("threads", threads, 1)
     made = [_fitting(policy, task) for policy in policies]
     counts = np.zeros((len(made), len(made), 3), np.int64)

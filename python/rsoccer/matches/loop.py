@@ -49,7 +49,7 @@ from rsoccer.rng import Seeds, WorldRng, next_streams
 from rsoccer.rules.base import Restart, begin, judge, select
 from rsoccer.senses import Senses
 from rsoccer.sensing_text import with_number
-from rsoccer.simulator_interface import close, has_snapshots
+from rsoccer.simulator_interface import close, has_snapshots, require_snapshots
 from rsoccer.sources import (
     SensingSource,
     SimulatorSource,
@@ -431,18 +431,16 @@ class Matches:
             state: what `state_dict` returned.
 
         Raises:
-            TypeError: a simulator that has no `restore`.
-            ValueError: a state of other matches. Nothing has changed.
+            TypeError: a simulator that has no `restore`, or no arrays by name. Nothing has changed.
+            ValueError: a state of other matches, numbers that are not finite, or negative steps.
+                Nothing has changed.
         """
         self._load(state)
         self._announce_state()
 
     def _load(self, state: Mapping[str, Array]) -> None:
         """Overwrite all state, unknown to those who follow the matches."""
-        starts = None
-        if _STARTS in state:
-            self._starts.check_rows()
-            starts = changes.saved_starts(self.task, state[_STARTS])
+        starts = self._saved_starts(result_checks.state_arrays(state))
         times = self.play.times
         self.play.times = np.zeros(self.worlds) if "times" in state else None
         try:
@@ -455,6 +453,13 @@ class Matches:
         self._all_begun = bool(self._begun.all())
         self.play.expire_views()
         self._consistency.repair()
+
+    def _saved_starts(self, state: Mapping[str, Array]) -> Floats | None:
+        """Checked states of `start_from` in a saved state; None without any."""
+        if _STARTS not in state:
+            return None
+        self._starts.check_rows()
+        return changes.saved_starts(self.task, state[_STARTS])
 
     def change_options(self, **options: Any) -> None:  # noqa: ANN401
         """Change options of the task while the matches run, for curricula.
@@ -548,10 +553,12 @@ class Matches:
             (n, agents, o) observations of all worlds, a new array.
 
         Raises:
-            TypeError: a simulator that has no `restore`.
+            TypeError: a simulator that has no `restore`, or no arrays by name. Nothing has changed.
             ValueError: a state of another task, of other senses or of another number of worlds.
-                These matches have begun other episodes.
+                Nothing has changed, unless it is the simulator that refuses its part: then these
+                matches have begun other episodes.
         """
+        self._check_shared(result_checks.state_arrays(state))
         listeners, self._listeners = self._listeners, []  # this reset is no begin of an episode
         try:
             self.reset(seed)
@@ -570,6 +577,13 @@ class Matches:
         self._stack.begin(self._past, slice(None), self._learners.select(self._observations))
         self._announce_state()
         return self._observed()
+
+    def _check_shared(self, state: Mapping[str, Array]) -> None:
+        """Check what `take_over` takes from a state, but for the content of the snapshot."""
+        expected = self._state()
+        require_snapshots(self._simulator)
+        expected.check(state, {*expected.shared} - {"times"})  # which a reset may bring
+        self._saved_starts(state)
 
     def close(self) -> None:
         """Release what the simulator holds, such as a socket, if it holds anything."""

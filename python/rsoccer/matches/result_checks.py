@@ -1,6 +1,6 @@
 """Validation of what tasks and simulators return, and of saved states."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
 from typing import Final
 
 import numpy as np
@@ -11,6 +11,17 @@ from rsoccer.task_definition import TaskDefinition
 
 RESERVED_METRICS: Final = frozenset({"steps"})
 """Names in the info of an episode that are no metrics, see `Episodes.info`."""
+
+SIMULATOR: Final = "simulator"
+"""Name of the simulator's snapshot in a saved state."""
+STEPS: Final = "steps"
+"""Name of the control steps since episodes began in a saved state."""
+_ARGUMENTS: Final = {
+    "history": ("past_",),
+    "sensing": ("senses.", "rng.senses"),
+    "randomization": ("rng.randomization",),
+}
+"""Beginnings of names in a saved state by the argument of matches on which they depend."""
 
 
 def commands(task: TaskDefinition, value: object, shape: tuple[int, ...]) -> Floats:
@@ -146,23 +157,70 @@ def times(value: Array, n: int) -> Doubles:
     return found.copy()
 
 
-def state(saved: Mapping[str, Array], expected: Mapping[str, Array]) -> None:
-    """Validate the names, shapes and types of a saved state.
+def state(saved: object, expected: Mapping[str, Array], free: Collection[str]) -> None:
+    """Validate the names, shapes, types and numbers of a saved state.
 
     Args:
         saved: arrays of the saved state by name.
         expected: arrays of the same names, shapes and types; of "simulator" only the name counts.
+        free: names of arrays whose numbers may be infinite or NaN.
 
     Raises:
-        ValueError: a missing or unknown name, or an array of another shape or type.
+        TypeError: no arrays by name.
+        ValueError: a missing or unknown name, an array of another shape or type, a number that is
+            not finite, or negative steps.
     """
-    mismatched = sorted(set(saved) ^ set(expected))
+    arrays = state_arrays(saved)
+    mismatched = sorted(set(arrays) ^ set(expected), key=str)
     if mismatched:
-        raise ValueError(f"state: missing or unknown {mismatched}")
+        raise ValueError(f"state: missing or unknown {mismatched}{_reason(mismatched)}")
     for name, array in expected.items():
-        found = saved[name]
-        if name != "simulator" and (found.shape, found.dtype) != (array.shape, array.dtype):
+        found = arrays[name]
+        if name == SIMULATOR:
+            continue
+        if (found.shape, found.dtype) != (array.shape, array.dtype):
             raise ValueError(
                 f"state: expected {array.dtype} {array.shape} for {name!r}, "
-                f"got {found.dtype} {found.shape}"
+                f"got {found.dtype} {found.shape}{_reason([name])}"
             )
+        if name not in free and found.dtype.kind == "f" and not np.isfinite(found).all():
+            got = found[~np.isfinite(found)][0]
+            raise ValueError(f"state: expected finite numbers for {name!r}, got {got}")
+        if name == STEPS and (found < 0).any():
+            raise ValueError(f"state: expected at least 0 for {name!r}, got {found.min()}")
+
+
+def state_arrays(saved: object) -> Mapping[str, Array]:
+    """Validate that a saved state has arrays by name, as a snapshot of the simulator too.
+
+    Args:
+        saved: the saved state.
+
+    Returns:
+        The state.
+
+    Raises:
+        TypeError: no mapping, or a value that is no array.
+    """
+    if not isinstance(saved, Mapping):
+        raise TypeError(f"state: expected arrays by name, got {saved!r}")
+    for name, found in saved.items():
+        if not isinstance(found, np.ndarray):
+            raise TypeError(f"state: expected an array for {name!r}, got {found!r}")
+        if name == SIMULATOR and (found.dtype != np.uint8 or found.ndim != 1):
+            raise TypeError(
+                f"state: expected uint8 (bytes,) for {name!r}, got {found.dtype} {found.shape}"
+            )
+    return saved
+
+
+def _reason(names: Sequence[str]) -> str:
+    """The arguments of matches on which arrays depend, as the end of an error."""
+    arguments = [
+        argument
+        for argument, prefixes in _ARGUMENTS.items()
+        if any(str(name).startswith(prefixes) for name in names)
+    ]
+    if not arguments:
+        return ""
+    return f"; expected a state of matches with the same {' and '.join(arguments)}"

@@ -1,6 +1,6 @@
 """The senses of matches: of a model in Python, or of the simulator."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from typing import Final
 
 from rsoccer._core import SENSING_NUMBERS, Sensing
@@ -73,12 +73,16 @@ def check_forecasting(task: Task, asked: Sequence[str]) -> None:
         asked: names of teams.
 
     Raises:
+        TypeError: no names of teams.
         ValueError: a name that is no team's, or that of a team without robots.
     """
     teams = list(teams_of(task.robots))
-    if isinstance(asked, str) or (unknown := sorted(set(asked) - set(teams), key=str)):
-        got = asked if isinstance(asked, str) else unknown
-        raise ValueError(f"forecasting: expected some of {teams}, got {got!r}")
+    if isinstance(asked, str):
+        raise ValueError(f"forecasting: expected some of {teams}, got {asked!r}")
+    if not isinstance(asked, Collection):
+        raise TypeError(f"forecasting: expected some of {teams}, got {asked!r}")
+    if unknown := sorted((name for name in asked if name not in teams), key=str):
+        raise ValueError(f"forecasting: expected some of {teams}, got {unknown!r}")
 
 
 def forecasting_teams(

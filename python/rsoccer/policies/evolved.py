@@ -31,6 +31,7 @@ from typing import TYPE_CHECKING, Any, Final, Self
 from numpy.typing import ArrayLike
 
 from rsoccer.arrays import Floats
+from rsoccer.files import as_path
 from rsoccer.policies import policy_file, training_conditions
 from rsoccer.policies.base import Memory, Policy, PolicyInput
 from rsoccer.policies.ssl.keep import Keep
@@ -112,11 +113,13 @@ class Evolved(Policy):
 
         Raises:
             FileNotFoundError: no such file.
+            TypeError: no path.
             ValueError: the file is not a usable file of tactics, or the script cannot play the
                 task.
         """
+        file = as_path("path", path)
         try:
-            arrays, metadata = policy_file.read_file(Path(path))
+            arrays, metadata = policy_file.read_file(file)
             kind = check_metadata(metadata)
             if set(arrays) != {_ARRAY}:
                 raise ValueError(f"expected the array {_ARRAY!r}, got {sorted(arrays)}")

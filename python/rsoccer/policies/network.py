@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from rsoccer import checks, option_values
 from rsoccer.arrays import Array, Floats
+from rsoccer.files import as_path
 from rsoccer.policies import policy_file, training_conditions
 from rsoccer.policies.activations import activation as activation_of
 from rsoccer.policies.fits import check_fits
@@ -152,11 +153,16 @@ class Network(HeldActions):
                 None without one.
 
         Raises:
-            TypeError: neither a task nor its name, or something else than layers.
-            ValueError: other modules, weights or numbers that do not fit the policy file's format
-                or the task, or a task that the file cannot name.
+            TypeError: neither a task nor its name, something else than layers, or an argument of
+                another wrong type.
+            ValueError: other modules, an unknown name in `randomization`, weights or numbers that
+                do not fit the policy file's format or the task, or a task that the file cannot
+                name.
         """
         task = as_task(task)
+        clip = checks.positive_number("clip", clip)
+        most = policy_file.MAX_ACTION_REPEAT
+        action_repeat = checks.integer_in_range("action_repeat", action_repeat, 1, most)
         if task_name is None:
             task_options = _named_options(task, task_options)
         parts, activation = read_layers(layers, activation)
@@ -164,8 +170,7 @@ class Network(HeldActions):
             action_table = task.action_table
         inputs = parts[0][0].shape[-1:]
         arrays: dict[str, Array] = {
-            name: np.broadcast_to(np.asarray(value, np.float32), inputs).copy()
-            for name, value in (("mean", mean), ("std", std))
+            name: _by_input(name, each, inputs) for name, each in (("mean", mean), ("std", std))
         }
         arrays |= policy_file.named_layers(policy_file.POLICY, parts)
         for name, array in (("action_std", action_std), ("action_table", action_table)):
@@ -360,12 +365,14 @@ class Network(HeldActions):
 
         Raises:
             FileNotFoundError: no such file.
+            TypeError: no path.
             ValueError: the file is not a usable policy file, or the mode does not fit it.
         """
-        if not os.path.exists(path):
-            raise FileNotFoundError(f"policy: the file {os.fspath(path)} does not exist")
+        file = as_path("path", path)
+        if not file.exists():
+            raise FileNotFoundError(f"policy: the file {file} does not exist")
         try:
-            network = cls(*policy_file.read_file(Path(path)))
+            network = cls(*policy_file.read_file(file))
         except ValueError as error:
             raise ValueError(f"{os.fspath(path)} is not a usable policy file: {error}") from error
         network.mode = network._checked_mode(mode)
@@ -447,6 +454,16 @@ def _named_options(task: Task, options: Mapping[str, Any] | None) -> Mapping[str
             "give those to keep as task_options"
         )
     return found
+
+
+def _by_input(name: str, value: ArrayLike, inputs: tuple[int, ...]) -> Floats:
+    """One number for each input of the first layer, from one for all or from one each."""
+    array = checks.as_array(name, value)
+    if array.dtype.kind not in "iuf":
+        raise TypeError(f"{name}: expected numbers, got {value!r}")
+    if array.shape not in ((), inputs):
+        raise ValueError(f"{name}: expected a number or shape {inputs}, got {array.shape}")
+    return np.broadcast_to(array.astype(np.float32), inputs).copy()
 
 
 def _action_size(

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import json
 import os
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Self
 
 import numpy as np
 
+from rsoccer.files import as_path
 from rsoccer.policies import policy_file, training_conditions
 from rsoccer.policies.fits import check_fits
 from rsoccer.policies.heads import Head
@@ -94,13 +94,15 @@ class OnnxPolicy(HeldActions):
         Raises:
             FileNotFoundError: no such file.
             ImportError: onnxruntime is not installed.
+            TypeError: no path.
             ValueError: no usable ONNX model, or a mode that it lacks.
         """
-        if not os.path.isfile(path):
-            raise FileNotFoundError(f"policy: the file {os.fspath(path)} does not exist")
+        file = as_path("path", path)
+        if not file.is_file():
+            raise FileNotFoundError(f"policy: the file {file} does not exist")
         table = None if task is None else task.action_table
         try:
-            return cls(Path(path).read_bytes(), mode, table)
+            return cls(file.read_bytes(), mode, table)
         except ValueError as error:
             raise ValueError(f"{os.fspath(path)} is not a usable policy: {error}") from error
 

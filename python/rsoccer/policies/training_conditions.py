@@ -32,13 +32,16 @@ def written(sensing: SensingSource | None, randomization: Ranges | None) -> dict
         Text by key; no keys where robots knew the true state and no numbers varied.
 
     Raises:
-        TypeError: a distribution of another type.
-        ValueError: a text that is no preset's name, or a distribution that is none.
+        TypeError: no distributions by name, or one of another type.
+        ValueError: a text that is no preset's name, an unknown name, or a distribution that is
+            none.
     """
     metadata = {}
     recorded = sensing_text.recordable(sensing)
     if recorded is not None:
         metadata["sensing"] = sensing_text.to_text(recorded)
+    if randomization is not None:
+        numbers.check(randomization)
     if randomization:
         metadata["randomization"] = json.dumps(numbers.written(randomization), sort_keys=True)
         read_randomization(metadata)

@@ -89,6 +89,7 @@ def resolve_task(
     max_steps: int | None,
     options: Mapping[str, Any],
     caller: Callable[..., object],
+    limit_name: str = "max_steps",
 ) -> Task:
     """Return the task that matches or an environment play.
 
@@ -98,12 +99,15 @@ def resolve_task(
         options: options of a registered task, by name.
         caller: function or class that got the options beside its own arguments, which errors list;
             the constructor of a class whose metaclass hides its arguments.
+        limit_name: name of the caller's argument `max_steps`, for errors.
 
     Raises:
         TypeError: not a task, a task that `as_task` refuses, an unknown option, or options for a
             Task object.
         ValueError: an unknown task, or a value out of range.
     """
+    if max_steps is not None:
+        max_steps = checks.integer(limit_name, max_steps, 1)
     if isinstance(task, str):
         time_limit = {} if max_steps is None else {"max_steps": max_steps}
         return make_named(task, {**options, **time_limit}, _arguments(caller))
@@ -113,7 +117,7 @@ def resolve_task(
             f"valid are the arguments {_arguments(caller)}"
         )
     task = as_task(task)
-    return task if max_steps is None else with_max_steps(task, max_steps, "max_steps")
+    return task if max_steps is None else with_max_steps(task, max_steps, limit_name)
 
 
 def _arguments(caller: Callable[..., object]) -> list[str]:

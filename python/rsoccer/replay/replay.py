@@ -6,7 +6,7 @@ from dataclasses import fields
 from pathlib import Path
 
 from rsoccer.controllers import Controllers
-from rsoccer.files import write_atomically
+from rsoccer.files import as_path, write_atomically
 from rsoccer.matches import Matches
 from rsoccer.randomization import Ranges
 from rsoccer.replay import file_format, page
@@ -76,14 +76,16 @@ class Replay(Recorded):
 
         Raises:
             FileNotFoundError: no such file.
+            TypeError: no path.
             ReplayError: the file is no replay, of another version, cut off or damaged.
         """
-        if not Path(path).exists():
+        file = as_path("path", path)
+        if not file.exists():
             raise FileNotFoundError(f"replay: the file {path} does not exist")
-        if not Path(path).is_file():
+        if not file.is_file():
             raise ReplayError(f"replay: expected a file, got {path}")
         try:
-            return Replay.from_bytes(Path(path).read_bytes())
+            return Replay.from_bytes(file.read_bytes())
         except ReplayError as error:
             raise ReplayError(f"{path} is not a usable replay: {error}") from None
 

@@ -1,11 +1,13 @@
 """Numbers and switches of the rules of a whole match."""
 
 import json
-import math
 from collections.abc import Iterator, Mapping
 from typing import Any, Final
 
-from rsoccer._core import referee_preset, referee_rules
+import numpy as np
+
+from rsoccer import checks
+from rsoccer._core import referee_preset, referee_rules, referee_values
 
 PRESETS: Final = ("ssl_2026_a", "ssl_2026_b", "vsss_3v3", "vsss_5v5")
 """Names of the presets."""
@@ -15,8 +17,30 @@ CHOICES: Final = {
     "half_end": ("at_once", "next_stop"),
 }
 """Values of the choices by name."""
-RULES: Final = tuple(sorted({name for lg in ("ssl", "vsss") for name, *_ in referee_rules(lg)}))
-"""Names of the rules of both leagues."""
+LEAGUES: Final = ("ssl", "vsss")
+"""Names of the leagues."""
+RULES: Final = {league: tuple(name for name, *_ in referee_rules(league)) for league in LEAGUES}
+"""Names of each league's rules."""
+_COUNTS: Final = frozenset(name for name, unit, _ in referee_values() if unit == "1")
+_LARGEST: Final = float(np.finfo(np.float32).max)
+_EITHER: Final = frozenset({"early_end_goals", "early_end_lead"})
+"""Numbers that matches of both leagues can have, though one league has none."""
+_OTHERS: Final = {"ssl": {"placement_error"}, "vsss": {"placement"}}
+"""Values that only the other league has, though presets do not show it."""
+
+
+def _foreign_names() -> dict[str, frozenset[str]]:
+    """Names of the values that only the other league has: the presets of the league have none."""
+    used: dict[str, set[str]] = {league: set() for league in LEAGUES}
+    for preset in PRESETS:
+        values = json.loads(referee_preset(preset))
+        used[values["league"]] |= {name for name, value in values.items() if value}
+    ssl, vsss = (used[league] for league in LEAGUES)
+    only = {"ssl": vsss - ssl, "vsss": ssl - vsss}
+    return {league: frozenset(only[league] - _EITHER | _OTHERS[league]) for league in LEAGUES}
+
+
+_FOREIGN: Final = _foreign_names()
 
 
 class RefereeConfig(Mapping[str, Any]):
@@ -44,18 +68,27 @@ class RefereeConfig(Mapping[str, Any]):
 
         Raises:
             TypeError: a value of another type.
-            ValueError: an unknown preset, name or choice, the other league, or a number that is
-                not finite or below 0.
+            ValueError: an unknown preset, name or choice; the other league, or a value or rule that
+                only it has; a number that is not finite or below 0, or a count that is not whole.
         """
         if preset not in PRESETS:
             raise ValueError(f"preset: expected one of {PRESETS}, got {preset!r}")
         self.preset = preset
         self._values: dict[str, Any] = json.loads(referee_preset(preset))
         for name, value in values.items():
-            if name not in self._values:
-                known = ", ".join(self._values)
-                raise ValueError(f"referee: expected one of {known}, got {name!r}")
-            self._values[name] = _like(name, value, self._values[name])
+            self._replace(name, value)
+
+    def _replace(self, name: str, value: object) -> None:
+        """Replace a value by one that the league's rules can have."""
+        league = self._values["league"]
+        foreign = _FOREIGN[league]
+        if name in self._values:
+            value = _like(name, value, self._values[name], league)
+            if name not in foreign or value == self._values[name]:
+                self._values[name] = value
+                return
+        known = ", ".join(each for each in self._values if each not in foreign)
+        raise ValueError(f"referee: expected one of {known}, got {name!r}")
 
     def replaced(self, **values: Any) -> "RefereeConfig":  # noqa: ANN401  (checked here)
         """Return a configuration with some values replaced.
@@ -92,36 +125,37 @@ class RefereeConfig(Mapping[str, Any]):
         return hash(self.to_json())
 
 
-def _like(name: str, value: object, old: object) -> object:
+def _like(name: str, value: object, old: object, league: str) -> object:
     """A value of the kind of the one that it replaces."""
     if isinstance(old, bool):
-        if isinstance(value, bool):
-            return value
-        raise TypeError(f"{name}: expected True or False, got {value!r}")
+        return checks.boolean(name, value)
     if isinstance(old, float):
         return _number(name, value)
     if isinstance(old, list):
-        return _rules(name, value)
+        return _rules(name, value, RULES[league])
     choices = CHOICES.get(name, (old,))
     if value not in choices:
         raise ValueError(f"{name}: expected one of {choices}, got {value!r}")
     return value
 
 
-def _rules(name: str, value: object) -> list[str]:
-    """A list of names of rules."""
+def _rules(name: str, value: object, known: tuple[str, ...]) -> list[str]:
+    """A list of names of a league's rules."""
     if not isinstance(value, list | tuple):
         raise TypeError(f"{name}: expected a list of names of rules, got {value!r}")
     for part in value:
-        if part not in RULES:
-            raise ValueError(f"{name}: expected names of {', '.join(RULES)}, got {part!r}")
+        if part not in known:
+            raise ValueError(f"{name}: expected names of {', '.join(known)}, got {part!r}")
     return list(value)
 
 
 def _number(name: str, value: object) -> float:
-    """A number as the rules have them: finite, at least 0."""
-    if not isinstance(value, int | float) or isinstance(value, bool):
-        raise TypeError(f"{name}: expected a number, got {value!r}")
-    if not (math.isfinite(value) and value >= 0):
+    """A number as the rules have them: finite, at least 0, of counts a whole one."""
+    number = checks.number(name, value)
+    if not 0.0 <= number <= _LARGEST:
         raise ValueError(f"{name}: expected a finite number, at least 0, got {value}")
-    return float(value)
+    if name in _COUNTS and not number.is_integer():
+        raise ValueError(f"{name}: expected a whole number, got {value}")
+    if name == "halves" and number not in (1.0, 2.0):
+        raise ValueError(f"{name}: expected 1 or 2, got {value}")
+    return number

@@ -174,12 +174,17 @@ class SoccerVecEnv(RobotRowsEnv, VecEnv):  # type: ignore[misc]
             Observations (rows, o) float32.
 
         Raises:
-            TypeError: options of the wrong type.
-            ValueError: an unknown option, or an initial state with a wrong shape, or with bodies
-                that overlap or are outside.
+            TypeError: options of the wrong type. Nothing has changed.
+            ValueError: a list of options of another length, an unknown option, or an initial state
+                with a wrong shape, or with bodies that overlap or are outside. Nothing has changed.
         """
         self._viewer.check_open("reset")
         k = len(self.robots)
+        if len(self._options) != self.num_envs:
+            raise ValueError(
+                f"options: expected a dictionary or one for each of {self.num_envs} rows, "
+                f"got {len(self._options)}"
+            )
         seeds: list[int | None] = list(self._seeds[::k])
         options = [reset_options(given, "frame") for given in self._options[::k]]
         framed = np.array([given.get("frame") is not None for given in options])
@@ -197,9 +202,9 @@ class SoccerVecEnv(RobotRowsEnv, VecEnv):  # type: ignore[misc]
         one = np.ones(1, np.bool_)
         # None is excluded by the mask.
         rows: list[Any] = [initial_rows(options[i], self.task, one) for i in np.flatnonzero(framed)]
-        if not framed.all():
-            self._matches.reset(seeds, ~framed)
-        return self._matches.reset(seeds, framed, np.concatenate(rows))
+        # These first: they may be refused, and then nothing has changed.
+        observations = self._matches.reset(seeds, framed, np.concatenate(rows))
+        return observations if framed.all() else self._matches.reset(seeds, ~framed)
 
     def step_async(self, actions: Array) -> None:
         """Store the actions for `step_wait`.

@@ -2,7 +2,7 @@
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from dataclasses import field as dataclass_field
 from functools import cached_property
 from typing import Any, ClassVar, Final
@@ -18,7 +18,7 @@ from rsoccer.reflection import Reflection, Symmetry
 from rsoccer.rng import WorldRng
 from rsoccer.rules import Passes, Rule
 from rsoccer.rules.referee import PLACEMENT_SEEDS, RefereeRule
-from rsoccer.rules.referee_config import PRESETS, RefereeConfig
+from rsoccer.rules.referee_config import RefereeConfig
 from rsoccer.task import Play
 from rsoccer.tasks.soccer import Soccer
 
@@ -30,6 +30,8 @@ TEAMS: Final = ("blue", "yellow")
 _COUNTED: Final = "goals shots passes possession distance fouls yellow_cards red_cards"
 _TEAM_METRICS: Final = tuple(f"{team}_{name}" for name in _COUNTED.split() for team in TEAMS)
 """Metrics that both teams have, in the order of `Match.metrics`."""
+_AFTER_A_DRAW: Final = ("extra_half_seconds", "shootout_kicks", "max_shootout_kicks")
+"""Numbers of the rules that hold with the option `knockout` only."""
 
 
 @dataclass(frozen=True)
@@ -92,8 +94,11 @@ class Match(Soccer):
     knockout: bool = False
     """True: a draw leads to extra time and a shoot-out."""
     referee: Mapping[str, Any] = dataclass_field(default_factory=dict)
-    """Numbers and switches of the rules that differ from the league's, see `RefereeConfig`."""
+    """Numbers and switches of the rules that differ from the league's, see `RefereeConfig`; those
+    that are options of the task are given as such."""
 
+    LEAGUE_PRESET: ClassVar[str]
+    """A preset of the league's rules: all of a league have the same names."""
     OBSERVES_PRESENCE: ClassVar[bool] = True
     """Robots are taken out for cards."""
     success = "goal_score"
@@ -109,8 +114,19 @@ class Match(Soccer):
         checks.boolean("knockout", self.knockout)
         if not isinstance(self.referee, Mapping):
             raise TypeError(f"referee: expected values by name, got {self.referee!r}")
-        RefereeConfig(PRESETS[0], **self.referee_values)  # all presets have the same names
+        for name in self.referee:
+            self._check_name(name)
+        RefereeConfig(self.LEAGUE_PRESET, **self.referee_values)  # the preset needs the field
         super().__post_init__()
+
+    def _check_name(self, name: object) -> None:
+        """Refuse a name in the option `referee` that is no text, or another option's."""
+        if not isinstance(name, str):
+            raise TypeError(f"referee: expected names as text, got {name!r}")
+        if name in {field.name for field in fields(self)}:
+            raise ValueError(f"referee: {name!r} is an option of the task: give {name}=...")
+        if name in _AFTER_A_DRAW and not self.knockout:
+            raise ValueError(f"referee: {name!r} holds with knockout=True only")
 
     @property
     @abstractmethod

@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from rsoccer import option_values
+from rsoccer import checks, option_values
 from rsoccer._core import BallModel, Field, RobotModel, SimConfig
 from rsoccer.task import Task
 
@@ -99,6 +99,25 @@ def _policy(name: str, value: object) -> str:
     return text
 
 
+def plain(value: object) -> Any:  # noqa: ANN401  (of the option's types)
+    """Return the value of an option with Python's numbers in place of NumPy's.
+
+    Equal options are then equal in files and in hashes, too.
+
+    Args:
+        value: the value; lists, tuples and mappings are searched and copied.
+    """
+    if isinstance(value, np.generic):
+        return value.item()
+    if isinstance(value, list):
+        return [plain(part) for part in value]
+    if isinstance(value, tuple):
+        return tuple(plain(part) for part in value)
+    if isinstance(value, Mapping):
+        return {name: plain(part) for name, part in value.items()}
+    return value
+
+
 def _path_as_text(value: object) -> object:
     """A path as text; any other value as it is."""
     return os.fspath(value) if isinstance(value, os.PathLike) else value
@@ -151,6 +170,6 @@ def reward_weights(
     for name, weight in value.items():
         if isinstance(weight, bool) or not isinstance(weight, Real):
             raise TypeError(f"reward_weights: expected a number for {name!r}, got {weight!r}")
-        if not abs(float(weight)) <= np.finfo(np.float32).max:
+        if not abs(checks.number("reward_weights", weight)) <= np.finfo(np.float32).max:
             raise ValueError(f"reward_weights: expected a finite number for {name!r}, got {weight}")
     return {**default, **value}

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from dataclasses import field as dataclass_field
 from functools import cached_property
 from typing import ClassVar, Final, cast
@@ -127,6 +127,8 @@ class Soccer(Task):
 
     def __post_init__(self) -> None:
         """Validate the options that both leagues share."""
+        for each in fields(self):
+            object.__setattr__(self, each.name, options.plain(getattr(self, each.name)))
         checks.integer("max_steps", self.max_steps, 1)
         weights = options.reward_weights(
             self.reward_weights, self.REWARD_WEIGHTS, self.PAPER_REWARD_WEIGHTS

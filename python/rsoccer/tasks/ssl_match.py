@@ -43,6 +43,8 @@ class SslMatch(Match, Ssl):
     chip_kick: bool = True
     """True: actions have a sixth number, above 0 for a chip kick."""
 
+    LEAGUE_PRESET: ClassVar[str] = "ssl_2026_b"
+    """Rules of one of the divisions."""
     REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {
         "goal": 10.0,
         "ball_to_goal": 2.0,

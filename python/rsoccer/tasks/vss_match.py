@@ -35,6 +35,8 @@ class VssMatch(Match, VssBase):
 
     FEWEST_YELLOW: ClassVar[int] = 1
     """Fewest robots of team yellow."""
+    LEAGUE_PRESET: ClassVar[str] = "vsss_3v3"
+    """Rules of one of the fields."""
     REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {
         "goal": 10.0,
         "ball_to_goal": 10.0,
