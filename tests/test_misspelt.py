@@ -81,7 +81,7 @@ def test_wrong_controllers_are_reported_by_the_keys_that_were_given() -> None:
 
     with pytest.raises(TypeError, match=r"^controllers\['yellow'\]: expected .*, got 3"):
         rsoccer.Matches("VSSSelfPlay-v0", controllers={"yellow": 3})  # type: ignore[dict-item]
-    with pytest.raises(TypeError, match=r"default_controllers\(\)\['blue_0'\]: expected .* got 3"):
+    with pytest.raises(TypeError, match=r"default_controllers: 'blue_0': expected .* got 3"):
         rsoccer.Matches(Careless())
 
 

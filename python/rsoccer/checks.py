@@ -238,7 +238,7 @@ def actions(value: object, shape: tuple[int, ...], name: str = "actions") -> Flo
 
 
 def team_names(value: object) -> tuple[str, str]:
-    """Validate the names of blue and of yellow.
+    """Return the names of blue and of yellow.
 
     Args:
         value: the argument `names`.

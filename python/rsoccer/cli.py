@@ -71,13 +71,10 @@ def _run(arguments: Sequence[str] | None) -> None:
     import tyro
 
     from rsoccer.commands import command_type
-    from rsoccer.commands.lists import add_lists
     from rsoccer.commands.numbers import whole_numbers
     from rsoccer.commands.sources import refusals_as_wrong_input
 
     _refuse_repetitions(words)
-    registry = whole_numbers()
-    add_lists(registry)
     with refusals_as_wrong_input():
         command = tyro.cli(
             command_type(words),
@@ -85,7 +82,7 @@ def _run(arguments: Sequence[str] | None) -> None:
             description="Robot soccer for reinforcement learning. `rsoccer --version` prints the "
             "versions of the package and of its physics.",
             args=words,
-            registry=registry,
+            registry=whole_numbers(),
         )
         command.run()
 

@@ -346,6 +346,7 @@ PRIVATE: Final = (
     "rsoccer.identify.*",
     "rsoccer.ids",
     "rsoccer.new_play",
+    "rsoccer.registry.overrides",
     "rsoccer.task_checks",
     "rsoccer.rules.touches",
     "rsoccer.matches",

@@ -224,7 +224,7 @@ class SocketLoop:
 
     @property
     def is_stopped(self) -> bool:
-        """Whether `stop` was called."""
+        """True once `stop` was called."""
         return self._stopped
 
     def run(self, seconds: float | None = None) -> None:

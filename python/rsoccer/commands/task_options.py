@@ -8,7 +8,6 @@ from typing import Any
 
 from tyro.constructors import PrimitiveConstructorSpec
 
-from rsoccer.commands.lists import some
 from rsoccer.option_words import parse_options
 from rsoccer.registry import task_with_options
 from rsoccer.task import Task
@@ -21,7 +20,7 @@ def _values_by_name(
     return PrimitiveConstructorSpec[Mapping[str, Any]](
         nargs="*",
         metavar="[NAME=VALUE [NAME=VALUE ...]]",
-        instance_from_str=lambda words: parse(some(words)),
+        instance_from_str=parse,
         is_instance=lambda value: isinstance(value, Mapping),
         str_from_instance=lambda options: [f"{name}={value!r}" for name, value in options.items()],
     )

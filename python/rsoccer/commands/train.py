@@ -12,7 +12,6 @@ from tyro.conf import UseAppendAction, arg
 from tyro.constructors import PrimitiveConstructorSpec
 
 from rsoccer.commands.imports import IMPORTS
-from rsoccer.commands.lists import some
 from rsoccer.commands.output import write
 from rsoccer.commands.task_options import RANDOMIZATION, TASK_OPTIONS
 from rsoccer.option_words import check_entries
@@ -25,7 +24,7 @@ _NOT_RESUMED: Final = {"out", "resume", "overwrite", "run.progress"}
 
 def _parse_mix(words: list[str]) -> dict[str, float]:
     """Policies with their shares, given as POLICY SHARE in turn."""
-    if len(some(words)) % 2:
+    if len(words) % 2:
         raise ValueError(f"expected pairs of POLICY and SHARE, got {' '.join(words)!r}")
     check_entries("policies", words[::2])
     return {name: float(share) for name, share in zip(words[::2], words[1::2], strict=True)}

@@ -41,7 +41,7 @@ def _owner(task_class: type, name: str) -> type | None:
 
 
 def _fault(task_class: type[Task], field: "dataclasses.Field[Any]") -> str:
-    """What is wrong with a value of an option, and what it should be."""
+    """The fault of a value of an option, and the line that it should have."""
     name, kind = field.name, getattr(field.type, "__name__", field.type)
     owner = _owner(task_class, name) or task_class
     value = vars(owner)[name]
@@ -60,7 +60,7 @@ def _fault(task_class: type[Task], field: "dataclasses.Field[Any]") -> str:
 
 
 def _kept(field: "dataclasses.Field[Any]") -> str:
-    """What happens to an option whose override is ignored."""
+    """The fate of an option whose override is ignored, for errors."""
     if field.default is not dataclasses.MISSING:
         return f"keeps {field.default!r:.60}"
     if field.default_factory is not dataclasses.MISSING:
