@@ -256,10 +256,13 @@ def test_refused_options_reset_no_match() -> None:
     envs.seed(4)
     envs.reset()
     row = envs._matches.frame.rows[0].copy()
-    outside, before = row + 99.0, envs._matches.state_dict()
+    wrong, before = row + 99.0, envs._matches.state_dict()
     for options, message in (
         ([{"frame": row}], "^options: expected .* each of 9 rows, got 1"),
-        ([{"frame": outside} if match == 1 else {} for match in (0, 1, 2) for _ in "abc"], ""),
+        (
+            [{"frame": wrong} if match == 1 else {} for match in (0, 1, 2) for _ in "abc"],
+            "^world 1: `absent` of blue_0 must be 0 or 1, got 99",
+        ),
     ):
         envs.set_options(options)
         with pytest.raises(ValueError, match=message):
