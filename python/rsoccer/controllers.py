@@ -18,10 +18,8 @@ from rsoccer.policies.base import (
     Memory,
     Policy,
     PolicyInput,
-    Shapes,
     actions_of,
     check_memory,
-    shapes_of,
 )
 from rsoccer.rng import WorldRng
 from rsoccer.task import LEARN, Learn, Play, Task
@@ -96,9 +94,10 @@ class PolicyGroup:
         shape = (len(commands), len(self.robots), play.actions.shape[2])
         inputs = self._inputs(play, observations, shape)
         converted = commands[:, self.robots]
-        name, before = f"{type(self.policy).__name__}.commands", shapes_of(self.memory)
+        before = dict(self.memory)
         chosen = self.policy.commands(inputs, converted, self.rng, self.memory)
-        check_memory(name, self.memory, before)
+        check_memory(self.policy, "commands", self.memory, before)
+        name = f"{type(self.policy).__name__}.commands"
         commands[:, self.robots] = checks.floats(name, chosen, converted.shape)
 
     def _inputs(
@@ -131,9 +130,8 @@ class PolicyGroup:
             ValueError: the policy's new memory has other arrays than that of other episodes.
         """
         fresh = _fresh_memory(self.policy, (len(worlds), len(self.robots), action_size), rng)
-        count = (len(worlds),)
-        expected: Shapes = {name: count + a.shape[1:] for name, a in self.memory.items()}
-        check_memory(f"{type(self.policy).__name__}.new_memory", fresh, expected)
+        expected = {name: array[worlds] for name, array in self.memory.items()}
+        check_memory(self.policy, "new_memory", fresh, expected)
         self.rng.put(worlds, rng)
         for name, array in fresh.items():
             self.memory[name][worlds] = array

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rsoccer import checks
-from rsoccer._core import SimConfig, Threads
+from rsoccer._core import SimConfig, Threads, clip_actions
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.game import Game
 from rsoccer.rng import WorldRng
@@ -17,9 +17,6 @@ from rsoccer.view import View
 
 Memory = dict[str, Array]
 """State of a policy between steps: arrays (n, ...) by name, one row per world."""
-
-Shapes = dict[str, tuple[int, ...] | None]
-"""Shapes of the arrays of a memory by name; None for what is no array."""
 
 Observes = Literal["nothing", "view", "observation"]
 """Kinds of input: none, the `View` of the robots, or the view and the task's observations."""
@@ -278,38 +275,48 @@ def actions_of(policy: Policy, inputs: PolicyInput, rng: WorldRng, memory: Memor
         ValueError: it returned an array of another shape, or numbers that are not finite, or left
             other arrays in its memory.
     """
-    name = f"{type(policy).__name__}.act"
-    before = shapes_of(memory)
+    before = dict(memory)
     actions = policy.act(inputs, rng, memory)
-    check_memory(name, memory, before)
+    check_memory(policy, "act", memory, before)
     if inputs.optional_actions:
-        actions = inputs.completed(checks.as_array(name, actions))
-    return checks.actions(actions, inputs.action_shape, name)
+        actions = inputs.completed(checks.as_array(_label(policy, "act"), actions))
+    clipped = clip_actions(actions, inputs.action_shape)
+    if clipped is None:
+        return checks.actions(actions, inputs.action_shape, _label(policy, "act"))
+    return clipped
 
 
-def shapes_of(memory: Memory) -> Shapes:
-    """Return the shapes of a memory's arrays.
-
-    Args:
-        memory: the arrays of a policy.
-    """
-    return {name: getattr(array, "shape", None) for name, array in memory.items()}
-
-
-def check_memory(source: str, memory: Memory, expected: Shapes) -> None:
+def check_memory(policy: Policy, method: str, memory: Memory, expected: Memory) -> None:
     """Check that a memory has the arrays that it began with: others would outlive an episode.
 
     Args:
-        source: the method that was called, for the error message.
-        memory: the arrays of a policy.
-        expected: their shapes, as `shapes_of` returns them.
+        policy: the policy.
+        method: name of its method that was called, for the error message.
+        memory: its arrays.
+        expected: arrays of the same names and shapes.
 
     Raises:
         ValueError: other names or shapes.
     """
-    found = shapes_of(memory)
-    if found != expected:
-        raise ValueError(f"{source}: expected a memory of {expected} by new_memory, got {found}")
+    if len(memory) == len(expected) and all(
+        memory.get(name) is array for name, array in expected.items()
+    ):
+        return
+    wanted, found = _shapes_of(expected), _shapes_of(memory)
+    if found != wanted:
+        raise ValueError(
+            f"{_label(policy, method)}: expected a memory of {wanted} by new_memory, got {found}"
+        )
+
+
+def _shapes_of(memory: Memory) -> dict[str, tuple[int, ...] | None]:
+    """Shapes of the arrays of a memory by name; None for what is no array."""
+    return {name: getattr(array, "shape", None) for name, array in memory.items()}
+
+
+def _label(policy: Policy, method: str) -> str:
+    """Name of a method for errors."""
+    return f"{type(policy).__name__}.{method}"
 
 
 def require_actions(name: str, policy: Policy) -> None:
