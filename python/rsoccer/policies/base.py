@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rsoccer import checks
-from rsoccer._core import SimConfig, Threads, clip_actions
+from rsoccer._core import SimConfig, Threads
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.game import Game
 from rsoccer.rng import WorldRng
@@ -275,15 +275,12 @@ def actions_of(policy: Policy, inputs: PolicyInput, rng: WorldRng, memory: Memor
         ValueError: it returned an array of another shape, or numbers that are not finite, or left
             other arrays in its memory.
     """
-    before = dict(memory)
+    before, name = dict(memory), _label(policy, "act")
     actions = policy.act(inputs, rng, memory)
     check_memory(policy, "act", memory, before)
     if inputs.optional_actions:
-        actions = inputs.completed(checks.as_array(_label(policy, "act"), actions))
-    clipped = clip_actions(actions, inputs.action_shape)
-    if clipped is None:
-        return checks.actions(actions, inputs.action_shape, _label(policy, "act"))
-    return clipped
+        actions = inputs.completed(checks.as_array(name, actions))
+    return checks.actions(actions, inputs.action_shape, name)
 
 
 def check_memory(policy: Policy, method: str, memory: Memory, expected: Memory) -> None:

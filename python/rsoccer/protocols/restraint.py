@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+import math
 from typing import Final
 
 import numpy as np
@@ -61,9 +61,8 @@ def restrained(
     if must_stand(state, is_vsss=False):
         return stopped(commands)
     allowed = np.array(commands, np.float32)
-    limits = Limits()
-    if command is Command.STOP:
-        limits = Limits(speed=stop_speed, kick_speed=0.0)
+    speed = stop_speed if command is Command.STOP else math.inf
+    limits = Limits(speed=speed, kick_speed=0.0)
     kicking = team_of(state.kick if command is Command.NORMAL_START else command)
     for team in (BLUE, YELLOW):
         if state.may_touch(team):
@@ -74,7 +73,7 @@ def restrained(
             touching = model.radius + config.ball.radius
             distance = touching + GAP if kicking == team else KEEP_AWAY
             allowed[slot] = _away(model, allowed[slot], frame, slot, distance)
-            allowed[slot] = limited(model, allowed[slot], replace(limits, kick_speed=0.0))
+            allowed[slot] = limited(model, allowed[slot], limits)
     return allowed
 
 
