@@ -11,8 +11,8 @@ use crate::models::{BallModel, Field, RobotModel};
 use crate::threads::{Threads, write_rows};
 use crate::viewpoint::Viewpoint;
 
-/// Most worlds whose terms the caller's thread computes alone.
-const ALONE: usize = 256;
+/// Most terms that the caller's thread computes alone, one for each observer of a world.
+const ALONE: usize = 1536;
 
 /// A potential function for reward shaping, in meters.
 #[pyclass(frozen, module = "rsoccer._core")]
@@ -60,7 +60,7 @@ impl Potential {
         {
             let mut out = differences.readwrite();
             let out = out.as_slice_mut()?;
-            write_rows(py, threads, out, observers.len(), ALONE, |world, out| {
+            write_rows(py, threads, out, observers.len(), alone(observers.len()), |world, out| {
                 let row = world * size..(world + 1) * size;
                 let (last_row, row) = (&last_rows[row.clone()], &rows[row]);
                 for (out, observer) in out.iter_mut().zip(observers) {
@@ -91,7 +91,7 @@ pub(crate) fn nearest_to_ball<'py>(
     {
         let mut out = nearest.readwrite();
         let out = out.as_slice_mut()?;
-        write_rows(py, threads, out, observers.len(), ALONE, |world, out| {
+        write_rows(py, threads, out, observers.len(), alone(observers.len()), |world, out| {
             let mut all = vec![false; robots];
             shaping::nearest_to_ball(&rows[world * size..][..size], n_blue, &mut all);
             for (out, observer) in out.iter_mut().zip(&observers) {
@@ -119,7 +119,7 @@ pub(crate) fn mean_action_magnitude<'py>(
     if size > 0 {
         let mut out = magnitudes.readwrite();
         let out = out.as_slice_mut()?;
-        write_rows(py, threads, out, observers.len(), ALONE, |world, out| {
+        write_rows(py, threads, out, observers.len(), alone(observers.len()), |world, out| {
             let actions = &actions[world * robots * size..][..robots * size];
             for (out, observer) in out.iter_mut().zip(&observers) {
                 *out = shaping::mean_magnitude(&actions[observer * size..][..size]);
@@ -127,6 +127,11 @@ pub(crate) fn mean_action_magnitude<'py>(
         });
     }
     Ok(magnitudes)
+}
+
+/// Most worlds whose terms the caller's thread computes alone, for the observers of a world.
+fn alone(observers: usize) -> usize {
+    ALONE / observers.max(1)
 }
 
 /// Indices of observers among the `robots` of a row.
