@@ -6,7 +6,7 @@ import torch
 from rsoccer.train.network.actor_critic import ActorCritic
 from rsoccer.train.ppo import loss_gradient
 from rsoccer.train.ppo.batch import Batch
-from rsoccer.train.ppo.loss_gradient import LossGradient
+from rsoccer.train.ppo.loss_gradient import LossGradient, weighted_advantages
 from rsoccer.train.workers import Workers
 from tests.train.ppo.test_update import SIZE, new_ppo
 
@@ -39,7 +39,7 @@ def test_gradients_equal_those_of_autograd(
     batch.weights = torch.rand(SIZE) if weighted else None
     rows = torch.randperm(SIZE)[:50]
     model = ppo._model
-    gradient, stats = LossGradient(model, Workers(2))(batch, rows)
+    gradient, stats = LossGradient(model, Workers(2))(batch, rows, weighted_advantages(batch, rows))
     loss = textbook_loss(model, batch.select(rows))
     expected = torch.autograd.grad(loss, list(model.parameters()))
     wanted = torch.cat([part.flatten() for part in expected])
@@ -55,7 +55,8 @@ def test_threads_change_no_bit(monkeypatch: pytest.MonkeyPatch) -> None:
     for threads in (1, 2, 3, 8):
         compute = LossGradient(ppo._model, Workers(threads))
         for count in (64, 9, 50):  # buffers grow and are used again
-            gradient, stats = compute(batch, torch.arange(count))
+            rows = torch.arange(count)
+            gradient, stats = compute(batch, rows, weighted_advantages(batch, rows))
         found = (gradient, stats, compute.log_probs(batch))
         results.append(b"".join(part.numpy().tobytes() for part in found))
     assert len(set(results)) == 1
@@ -65,9 +66,11 @@ def test_the_critic_alone_leaves_the_policy_without_a_gradient() -> None:
     ppo, batch = new_ppo()
     compute = LossGradient(ppo._model, Workers(1))
     size = sum(part.numel() for part in ppo._model.actor.parameters())
-    gradient, _ = compute(batch, torch.arange(SIZE))
+    rows = torch.arange(SIZE)
+    found, _ = compute(batch, rows, weighted_advantages(batch, rows))
+    gradient = found.clone()  # the next call overwrites it
     assert gradient[:size].abs().max() > 0.0
-    alone, _ = compute(batch, torch.arange(SIZE), critic_only=True)
+    alone, _ = compute(batch, rows, weighted_advantages(batch, rows, critic_only=True))
     assert not alone[:size].any()
     assert torch.equal(alone[size:], gradient[size:])
 

@@ -129,7 +129,11 @@ class ActorCritic(nn.Module):
             mean: (..., action) mean actions from `actor`.
             actions: (..., action) drawn actions.
         """
-        return (actions - mean) * (-self.log_std).exp()
+        return (actions - mean) * self.inverse_std()
+
+    def inverse_std(self) -> Tensor:
+        """Return 1 / standard deviation of the actions, (action,)."""
+        return (-self.log_std).exp()
 
     def log_density(self, offset: Tensor) -> Tensor:
         """Return the log density of Gaussian actions, summed over their components, (...).
@@ -138,7 +142,7 @@ class ActorCritic(nn.Module):
             offset: (..., action) actions from `standardize`.
         """
         constant = offset.shape[-1] * 0.5 * math.log(2 * math.pi)
-        return -0.5 * offset.square().sum(-1) - self.log_std.sum() - constant
+        return offset.square().sum(-1).mul_(-0.5).sub_(self.log_std.sum()).sub_(constant)
 
     def export(
         self,

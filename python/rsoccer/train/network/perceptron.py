@@ -41,6 +41,7 @@ class PassMemory:
     def __init__(self) -> None:
         """Begin without memory; the largest pass sets its size."""
         self._parts: dict[str, Tensor] = {}
+        self._last: dict[str, Tensor] = {}
 
     def matrix(self, name: str, rows: int, columns: int, like: Tensor) -> Tensor:
         """Return a part of the memory, (rows, columns), with arbitrary numbers.
@@ -51,14 +52,14 @@ class PassMemory:
             columns: number of columns.
             like: a tensor with the type and the device of the numbers.
         """
+        last, kind = self._last.get(name), (like.dtype, like.device)
+        if last is not None and last.shape == (rows, columns) and (last.dtype, last.device) == kind:
+            return last  # as in most passes
         size, part = rows * columns, self._parts.get(name)
-        if (
-            part is None
-            or part.numel() < size
-            or (part.dtype, part.device) != (like.dtype, like.device)
-        ):
+        if part is None or part.numel() < size or (part.dtype, part.device) != kind:
             part = self._parts[name] = like.new_empty(size)
-        return part[:size].view(rows, columns)
+        last = self._last[name] = part[:size].view(rows, columns)
+        return last
 
 
 class PerceptronPass:

@@ -31,6 +31,7 @@ class Adam:
         """
         self._vector = vector
         self._mean, self._square = torch.zeros_like(vector), torch.zeros_like(vector)
+        self._root = torch.empty_like(vector)  # memory of a step
         self._steps = 0
 
     def step(self, gradient: Tensor, learning_rate: float) -> None:
@@ -44,7 +45,8 @@ class Adam:
         self._mean.lerp_(gradient, 1.0 - BETA_1)
         self._square.mul_(BETA_2).addcmul_(gradient, gradient, value=1.0 - BETA_2)
         # Both means start at 0, which the divisions correct.
-        root = self._square.sqrt().div_(math.sqrt(1.0 - BETA_2**self._steps)).add_(EPSILON)
+        root = torch.sqrt(self._square, out=self._root)
+        root.div_(math.sqrt(1.0 - BETA_2**self._steps)).add_(EPSILON)
         step_size = learning_rate / (1.0 - BETA_1**self._steps)
         self._vector.addcdiv_(self._mean, root, value=-step_size)
 

@@ -47,27 +47,23 @@ class LossGradient:
         self._actors = [_Place(model.actor, memory) for memory in memories]
         self._critics = [_Place(model.critic, memory) for memory in memories]
         self._size = sum(parameter.numel() for parameter in model.parameters())
+        self._actor_parameters = 2 * len(model.actor.linear())
         self._gradients = torch.empty(0)
         self._stats = torch.empty(0)
         self._outs: list[list[Tensor]] = []
 
     @torch.no_grad()
-    def __call__(
-        self, batch: Batch, rows: Tensor, *, critic_only: bool = False
-    ) -> tuple[Tensor, Tensor]:
+    def __call__(self, batch: Batch, rows: Tensor, advantages: Tensor) -> tuple[Tensor, Tensor]:
         """Return the gradient, (size,), and (approx_kl, clip_fraction, value_loss), (3,).
+
+        The gradient is valid until the next call, and may be changed.
 
         Args:
             batch: samples of one rollout, on the device of the model.
             rows: (k,) indices of the samples of the minibatch.
-            critic_only: the gradient of the policy is 0.
+            advantages: (k,) their advantages from `weighted_advantages`; of zeros the gradient of
+                the policy is 0.
         """
-        advantages = batch.advantages.index_select(0, rows)
-        advantages.sub_(advantages.mean()).div_(advantages.std() + 1e-8)
-        if batch.weights is not None:
-            advantages.mul_(batch.weights.index_select(0, rows))
-        if critic_only:  # Adam leaves parameters as they are whose gradients were always 0
-            advantages.zero_()
         parts = shards(len(rows), SHARD if rows.device.type == "cpu" else len(rows))
         self._reserve(len(parts), rows.device)
         jobs: list[Job] = []
@@ -75,7 +71,8 @@ class LossGradient:
             jobs += self._jobs(index, batch, rows[part], advantages[part], len(rows))
         self._workers.run(jobs)
         # In the order of the parts.
-        gradient = self._gradients[: len(parts)].sum(0)
+        only = len(parts) == 1
+        gradient = self._gradients[0] if only else self._gradients[: len(parts)].sum(0)
         return gradient, self._stats[: len(parts)].sum(0).div_(len(rows))
 
     @torch.no_grad()
@@ -124,29 +121,29 @@ class LossGradient:
         """Write the gradient of the policy for a part, its divergence and its clipped samples."""
         model = self._model
         mean = place.outputs(batch.observations, rows)
-        offset = model.standardize(mean, batch.actions.index_select(0, rows))
+        inverse_std = model.inverse_std()
+        offset = batch.actions.index_select(0, rows).sub_(mean).mul_(inverse_std)
         log_ratio = model.log_density(offset).sub_(batch.log_probs.index_select(0, rows))
         ratio = log_ratio.exp()
         clipped_ratio = ratio.clamp(1 - CLIP_RANGE, 1 + CLIP_RANGE)
         gain = ratio * advantages
-        unclipped = gain <= clipped_ratio * advantages
-        by_log_prob = torch.where(unclipped, gain, 0.0).mul_(-1.0 / total)[:, None]
-        by_mean = offset.mul_(by_log_prob).mul_((-model.log_std).exp())
-        actor_parameters = 2 * len(model.actor.linear())
-        place.gradients(by_mean, self._outs[index][:actor_parameters])
+        by_log_prob = gain.masked_fill(gain > clipped_ratio * advantages, 0.0).mul_(-1.0 / total)
+        by_mean = offset.mul_(by_log_prob[:, None]).mul_(inverse_std)
+        place.gradients(by_mean, self._outs[index][: self._actor_parameters])
         stats = self._stats[index]
-        stats[0] = (ratio - 1 - log_ratio).sum()  # never negative, Schulman (2020)
-        stats[1] = (clipped_ratio != ratio).sum()
+        torch.ne(clipped_ratio, ratio, out=clipped_ratio)
+        torch.sum(clipped_ratio, 0, out=stats[1])
+        ratio.sub_(1.0).sub_(log_ratio)  # never negative, Schulman (2020)
+        torch.sum(ratio, 0, out=stats[0])
 
     @torch.no_grad()
     def _value(self, index: int, place: _Place, batch: Batch, rows: Tensor, total: int) -> None:
         """Write the gradient of the value network for a part, and its squared errors."""
         values = place.outputs(batch.critic_inputs, rows)
         error = values.sub_(batch.returns.index_select(0, rows)[:, None])
-        self._stats[index, 2] = error.square().sum()
-        actor_parameters = 2 * len(self._model.actor.linear())
+        torch.sum(error.square(), (0, 1), out=self._stats[index, 2])
         error.mul_(2.0 * VALUE_COEF / total)
-        place.gradients(error, self._outs[index][actor_parameters:])
+        place.gradients(error, self._outs[index][self._actor_parameters :])
 
     def _reserve(self, parts: int, device: torch.device) -> None:
         """Have buffers for the gradients and the statistics of some parts."""
@@ -160,6 +157,22 @@ class LossGradient:
             [part.view(shape) for part, shape in zip(row.split(sizes), shapes, strict=True)]
             for row in self._gradients
         ]
+
+
+@torch.no_grad()
+def weighted_advantages(batch: Batch, rows: Tensor, *, critic_only: bool = False) -> Tensor:
+    """Return normalized advantages of a minibatch, times the weights of its samples, (k,).
+
+    Args:
+        batch: samples of one rollout.
+        rows: (k,) indices of the samples of the minibatch.
+        critic_only: all are 0. Adam leaves parameters as they are whose gradients were always 0.
+    """
+    advantages = batch.advantages.index_select(0, rows)
+    advantages.sub_(advantages.mean()).div_(advantages.std() + 1e-8)
+    if batch.weights is not None:
+        advantages.mul_(batch.weights.index_select(0, rows))
+    return advantages.zero_() if critic_only else advantages
 
 
 class _Place:

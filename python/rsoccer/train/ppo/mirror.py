@@ -64,12 +64,14 @@ def with_reflections(
     reflection: Reflection = found
     model = evaluator.model
     observations, log_probs = torch.empty_like(batch.observations), torch.empty(len(batch))
+    order, signs = torch.as_tensor(reflection.order), torch.as_tensor(reflection.signs) * model.mask
     actions = _reflect(batch.actions, symmetry.action)
 
     @torch.no_grad()
     def reflect(part: slice, thread: int) -> None:
-        observations[part] = _reflect(batch.observations[part], reflection).mul_(model.mask)
-        mean = evaluator.actor(thread).outputs(observations[part])
+        reflected = observations[part]
+        torch.mul(batch.observations[part].index_select(-1, order), signs, out=reflected)
+        mean = evaluator.actor(thread).outputs(reflected)
         log_probs[part] = model.log_prob(mean, actions[part])
 
     evaluator.each_part(len(batch), reflect)

@@ -15,7 +15,7 @@ from rsoccer.train.network.weight_sharing import WeightSharing
 from rsoccer.train.ppo.adam import Adam
 from rsoccer.train.ppo.batch import Batch
 from rsoccer.train.ppo.learning_rate import TARGET_KL
-from rsoccer.train.ppo.loss_gradient import LossGradient
+from rsoccer.train.ppo.loss_gradient import LossGradient, weighted_advantages
 from rsoccer.train.ppo.settings import PpoSettings
 from rsoccer.train.workers import Workers
 
@@ -164,13 +164,18 @@ class PPO:
     ) -> list[float]:
         """One pass over the batch; the mean of the minibatches' statistics from `LossGradient`."""
         order = torch.randperm(len(batch), generator=self._generator).to(self.device)
+        minibatches = order.chunk(self._settings.n_minibatches)
+        # All at once: between other work such small operations take several times as long.
+        advantages = [
+            weighted_advantages(batch, rows, critic_only=critic_only) for rows in minibatches
+        ]
         stats = []
-        for rows in order.chunk(self._settings.n_minibatches):
+        for rows, weights in zip(minibatches, advantages, strict=True):
             check_stop()
-            gradient, minibatch_stats = self._loss_gradient(batch, rows, critic_only=critic_only)
+            gradient, minibatch_stats = self._loss_gradient(batch, rows, weights)
             if self._sharing is not None:
                 gradient = self._sharing.average(gradient)
-            scale = MAX_GRAD_NORM / (gradient.norm() + 1e-6)
+            scale = MAX_GRAD_NORM / (torch.linalg.vector_norm(gradient) + 1e-6)
             self.optimizer.step(gradient.mul_(scale.clamp(max=1.0)), learning_rate)
             stats.append(minibatch_stats)
         means: list[float] = torch.stack(stats).mean(0).tolist()
