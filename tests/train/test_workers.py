@@ -48,6 +48,10 @@ def test_an_error_of_a_job_is_raised_when_all_threads_have_stopped(threads: int)
     assert len(done) == 6
 
 
+def test_an_only_part_may_have_fewer_rows_than_others() -> None:
+    assert [len(shards(rows, 1024, 256)) for rows in (256, 257, 2048, 2049)] == [1, 2, 2, 4]
+
+
 @pytest.mark.parametrize("rows", [1, 2, 7, 1024, 1025, 6144])
 def test_parts_cover_all_rows_and_are_nearly_equal(rows: int) -> None:
     parts = shards(rows, 1024)

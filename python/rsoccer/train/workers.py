@@ -73,7 +73,7 @@ def _work(left: deque[Job], thread: int) -> None:
         job(thread)
 
 
-def shards(rows: int, largest: int) -> list[slice]:
+def shards(rows: int, largest: int, alone: int | None = None) -> list[slice]:
     """Return consecutive parts of some rows, nearly equal and an even number of them.
 
     Two threads have the same work with an even number. The parts depend on the number of rows
@@ -82,6 +82,7 @@ def shards(rows: int, largest: int) -> list[slice]:
     Args:
         rows: number of rows.
         largest: greatest number of rows in a part, unless one part has all of them.
+        alone: greatest number of rows in an only part; None for the same.
 
     Example:
         >>> [(part.start, part.stop) for part in shards(5, 2)]
@@ -89,6 +90,7 @@ def shards(rows: int, largest: int) -> list[slice]:
         >>> len(shards(4, 4))
         1
     """
-    count = 1 if rows <= largest else 2 * -(-rows // (2 * largest))
+    alone = largest if alone is None else alone
+    count = 1 if rows <= alone else 2 * -(-rows // (2 * largest))
     bounds = [rows * index // count for index in range(count + 1)]
     return [slice(*pair) for pair in itertools.pairwise(bounds)]

@@ -61,14 +61,17 @@ class Evaluator:
         """
         return self._actors[thread]
 
-    def each_part(self, rows: int, do: Callable[[slice, int], None]) -> None:
+    def each_part(
+        self, rows: int, do: Callable[[slice, int], None], alone: int | None = None
+    ) -> None:
         """Do something for each part of some rows, on all threads.
 
         Args:
             rows: number of rows.
             do: takes a part of the rows and the index of a thread; parts are done at the same time.
+            alone: most rows of an only part; None for those of any part.
         """
-        parts = shards(rows, SHARD)
+        parts = shards(rows, SHARD, alone)
         self.workers.run([functools.partial(do, part) for part in parts])
 
     def _outputs(self, network: Perceptron, passes: list[PerceptronPass], inputs: Tensor) -> Tensor:

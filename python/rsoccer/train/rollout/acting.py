@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 import numpy as np
 import torch
 from torch import Tensor
@@ -11,9 +13,12 @@ from rsoccer.train.network.actor_critic import OBSERVATION_CLIP
 from rsoccer.train.network.evaluator import Evaluator
 from rsoccer.train.rollout.running_mean_std import RunningMeanStd
 
+ALONE: Final = 256
+"""Most rows that one thread decides alone: with more, another one is worth its waking."""
+
 
 class Acting:
-    """Normalizes observations and draws actions."""
+    """Normalizes observations and draws actions; `begin` begins a rollout."""
 
     def __init__(
         self, evaluator: Evaluator, obs_rms: RunningMeanStd, generator: torch.Generator
@@ -28,30 +33,34 @@ class Acting:
         self._evaluator, self._obs_rms, self._generator = evaluator, obs_rms, generator
         mask = evaluator.model.mask.numpy()
         self._mask = None if mask.all() else mask
+        self.begin()
+
+    def begin(self) -> None:
+        """Take over the statistics and the spread of the policy, which stay during a rollout."""
+        self._mean_std = self._obs_rms.as_float32()
+        self._std = self._evaluator.model.log_std.exp()
 
     @torch.no_grad()
     def decide(
-        self, observations: Floats, normalized: Tensor, actions: Tensor, log_probs: Tensor
+        self, observations: Floats, normalized: Tensor, means: Tensor, actions: Tensor
     ) -> None:
         """Draw an action for each robot.
 
         Args:
             observations: (robots, o) observations.
             normalized: (robots, o), which gets the normalized observations.
+            means: (robots, action), which gets the mean actions.
             actions: (robots, action), which gets the actions, not clipped.
-            log_probs: (robots,), which gets their log densities.
         """
-        model, mean_std = self._evaluator.model, self._obs_rms.as_float32()
-        noise = torch.randn(actions.shape, generator=self._generator)
-        noise.mul_(model.log_std.exp())
+        noise = torch.randn(actions.shape, generator=self._generator).mul_(self._std)
 
         def decide(part: slice, thread: int) -> None:
-            self._normalize(observations[part], normalized[part], mean_std)
-            mean = self._evaluator.actor(thread).outputs(normalized[part])
-            torch.add(mean, noise[part], out=actions[part])
-            log_probs[part] = model.log_prob(mean, actions[part])
+            inputs = normalized[part]
+            self._normalize(observations[part], inputs)
+            means[part] = self._evaluator.actor(thread).outputs(inputs)
 
-        self._evaluator.each_part(len(observations), decide)
+        self._evaluator.each_part(len(observations), decide, ALONE)
+        torch.add(means, noise, out=actions)
 
     def normalized(self, observations: Floats) -> Tensor:
         """Return normalized observations, (..., o).
@@ -60,14 +69,12 @@ class Acting:
             observations: (..., o) observations.
         """
         result = torch.empty(observations.shape)
-        self._normalize(observations, result, self._obs_rms.as_float32())
+        self._normalize(observations, result)
         return result
 
-    def _normalize(
-        self, observations: Floats, out: Tensor, mean_std: tuple[Floats, Floats]
-    ) -> None:
+    def _normalize(self, observations: Floats, out: Tensor) -> None:
         """Write normalized observations."""
-        (mean, std), array = mean_std, out.numpy()
+        (mean, std), array = self._mean_std, out.numpy()
         np.subtract(observations, mean, out=array)
         np.divide(array, std, out=array)
         np.clip(array, -OBSERVATION_CLIP, OBSERVATION_CLIP, out=array)

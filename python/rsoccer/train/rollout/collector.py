@@ -113,26 +113,30 @@ class RolloutCollector:
         store = _Store(settings.horizon, robots, self._model, self.states)
         observations: list[Floats] = []
         states: list[Floats] = []
+        returns: list[Floats] = []
         self.reward_means = {}
+        self._acting.begin()
         for step in range(settings.horizon):
             check_stop()
             observations.append(self.observations)
             if self.states is not None:
                 states.append(self.states)
-            self._play_decision(store, step, gamma)
+            self._play_decision(store, step, gamma, returns)
+        if settings.normalize_rewards:
+            self._add_to(self.return_rms, returns)
         if settings.normalize_observations:
-            self._add_observations(observations)
+            self._add_to(self.obs_rms, observations)
             if self.central is not None:
                 self.central.update(states)
-        return store.rollout(float(self.return_rms.std[0]))
+        return store.rollout(self._model, float(self.return_rms.std[0]))
 
-    def _play_decision(self, store: _Store, step: int, gamma: float) -> None:
-        """One decision in every world."""
+    def _play_decision(self, store: _Store, step: int, gamma: float, returns: list[Floats]) -> None:
+        """One decision in every world; the discounted returns after it are added to `returns`."""
         actions = store.actions[step]
         with self._clock.measure("acting"):
             flat = self.observations.reshape(len(actions), -1)
             normalized = store.observations[step]
-            self._acting.decide(flat, normalized, actions, store.log_probs[step])
+            self._acting.decide(flat, normalized, store.means[step], actions)
             if self.central is not None and self.states is not None:
                 assert store.central_inputs is not None, "made for the states"
                 store.central_inputs[step] = self.central.join(self.states, normalized)
@@ -146,6 +150,7 @@ class RolloutCollector:
                 shield=self._shield,
             )
             self._record(transition, gamma)
+            returns.append(self.discounted_returns.copy())
             ended = transition.ended | self._draw_truncations()
             last = step == self._settings.horizon - 1
             self._record_next(store, transition, np.ones_like(ended) if last else ended)
@@ -155,9 +160,9 @@ class RolloutCollector:
                 self.observations = self.matches.reset(mask=ended)
             self._update_states()
         agents = shape[1]
-        store.rewards[step] = torch.from_numpy(transition.rewards.reshape(-1))
-        store.terminated[step] = torch.from_numpy(np.repeat(transition.terminated, agents))
-        store.ended[step] = torch.from_numpy(np.repeat(ended, agents))
+        store.rewards[step] = transition.rewards.reshape(-1)
+        store.terminated[step] = np.repeat(transition.terminated, agents)
+        store.ended[step] = np.repeat(ended, agents)
 
     def _record_next(self, store: _Store, transition: Transition, needed: Mask) -> None:
         """Keep the next inputs of the value network in the worlds that need them."""
@@ -169,29 +174,28 @@ class RolloutCollector:
             inputs = self.central.join(transition.states[needed], inputs)
         store.next_inputs.append(inputs)
 
-    def _add_observations(self, observations: list[Floats]) -> None:
-        """Add the observations of a rollout to their statistics."""
-        size, found = self._model.observation_size, dict[int, tuple[Doubles, Doubles]]()
+    def _add_to(self, rms: RunningMeanStd, arrays: list[Floats]) -> None:
+        """Add the arrays of all decisions of a rollout to their statistics."""
+        size, found = len(rms.mean), dict[int, tuple[Doubles, Doubles]]()
 
         def measure(step: int, _: int) -> None:
             # In one order of memory, as sums depend on it: a restored array has another one.
-            found[step] = moments(np.ascontiguousarray(observations[step]).reshape(-1, size))
+            found[step] = moments(np.ascontiguousarray(arrays[step]).reshape(-1, size))
 
-        jobs = [functools.partial(measure, step) for step in range(len(observations))]
+        jobs = [functools.partial(measure, step) for step in range(len(arrays))]
         self._evaluator.workers.run(jobs)
-        for step in range(len(observations)):
-            self.obs_rms.add(self.discounted_returns.size, *found[step])
+        for step in range(len(arrays)):
+            rms.add(self.discounted_returns.size, *found[step])
 
     def _draw_truncations(self) -> Mask:
         """Mask (n,) of random truncations, which are treated like time limits."""
         uniform = torch.rand(len(self.discounted_returns), generator=self._generator)
-        return (uniform < self._settings.random_truncation).numpy()
+        truncated: Mask = uniform.numpy() < self._settings.random_truncation
+        return truncated
 
     def _record(self, transition: Transition, gamma: float) -> None:
-        """Update the statistics of rewards and of ended episodes."""
+        """Update the discounted returns, and the statistics of rewards and of ended episodes."""
         self.discounted_returns = self.discounted_returns * np.float32(gamma) + transition.rewards
-        if self._settings.normalize_rewards:
-            self.return_rms.update(self.discounted_returns.reshape(-1, 1))
         ended = transition.ended
         kinds = np.zeros(len(ended), int)
         if self._opponents is not None:
@@ -225,25 +229,25 @@ class _Store:
         """Reserve memory for a horizon and some robots."""
         shape, (action_size,) = (horizon, robots), model.log_std.shape
         self.observations = torch.empty((*shape, model.observation_size))
-        self.actions = torch.empty((*shape, action_size))
-        self.log_probs, self.rewards = torch.empty(shape), torch.empty(shape)
-        self.terminated = torch.empty(shape, dtype=torch.bool)
-        self.ended = torch.empty(shape, dtype=torch.bool)
+        self.means, self.actions = torch.empty((2, *shape, action_size))
+        self.rewards = np.empty(shape, np.float32)
+        self.terminated, self.ended = np.empty((2, *shape), np.bool_)
         self.central_inputs: Tensor | None = None
         if states is not None:
             size = states.shape[1] + model.observation_size
             self.central_inputs = torch.empty((*shape, size))
         self.next_inputs: list[Tensor] = []
 
-    def rollout(self, scale: float) -> Rollout:
-        """The decisions, with rewards divided by a scale."""
+    @torch.no_grad()
+    def rollout(self, model: ActorCritic, scale: float) -> Rollout:
+        """The decisions of a model, with rewards divided by a scale."""
         return Rollout(
             self.observations,
             self.actions,
-            self.log_probs,
-            self.rewards.div_(scale),
-            self.terminated,
-            self.ended,
+            model.log_prob(self.means, self.actions),
+            torch.from_numpy(self.rewards).div_(scale),
+            torch.from_numpy(self.terminated),
+            torch.from_numpy(self.ended),
             torch.cat(self.next_inputs),
             self.central_inputs,
         )

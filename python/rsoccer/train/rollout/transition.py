@@ -8,9 +8,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rsoccer.arrays import Array, Floats, Mask
-from rsoccer.matches import Matches
+from rsoccer.matches import Matches, Outcome
 from rsoccer.policies.base import MatchState
 from rsoccer.policies.shield import Shield
 
@@ -62,28 +63,46 @@ def repeat_action(
     result = Transition(
         outcome.observations,
         outcome.rewards,
-        {name: float(term.mean()) for name, term in outcome.terms.items()},
+        {name: _mean(term) for name, term in outcome.terms.items()},
         outcome.terminated,
         outcome.ended,
         outcome.metrics,
         matches.states() if with_states else None,
     )
     for _ in range(action_repeat - 1):
-        playing = ~result.ended
+        waiting = np.flatnonzero(result.ended)  # few, mostly none
         outcome = matches.step(shielded(matches, actions, shield))
-        result.rewards += outcome.rewards * playing[:, None]
+        states = None if result.states is None else matches.states()
+        if len(waiting):
+            _wait(result, outcome, states, waiting)
+        result.observations, result.states = outcome.observations, states
+        result.rewards += outcome.rewards
         for name, term in outcome.terms.items():
-            result.terms[name] += float((term * playing[:, None]).mean())
-        waiting = np.flatnonzero(result.ended)  # few, so that little is copied
-        outcome.observations[waiting] = result.observations[waiting]
-        result.observations = outcome.observations
-        if result.states is not None:
-            result.states[playing] = matches.states()[playing]
-        result.terminated |= outcome.terminated & playing
-        result.ended |= outcome.ended & playing
-        for name, values in outcome.metrics.items():
-            result.metrics[name][playing] = values[playing]
+            result.terms[name] += _mean(term)
+        result.terminated |= outcome.terminated
+        result.ended |= outcome.ended
+        result.metrics = outcome.metrics
     return result
+
+
+def _wait(
+    result: Transition, outcome: Outcome, states: Floats | None, worlds: NDArray[np.intp]
+) -> None:
+    """Let a step change nothing in some worlds: replace their part of its results."""
+    outcome.observations[worlds] = result.observations[worlds]
+    if states is not None and result.states is not None:
+        states[worlds] = result.states[worlds]
+    for array in (outcome.rewards, *outcome.terms.values()):
+        array[worlds] = 0.0
+    for ends in (outcome.terminated, outcome.truncated):
+        ends[worlds] = False
+    for name, values in outcome.metrics.items():
+        values[worlds] = result.metrics[name][worlds]
+
+
+def _mean(term: Floats) -> float:
+    """Mean of all numbers of a term, as `term.mean()` in a third of its time."""
+    return float(np.add.reduce(term, axis=None) / np.float32(term.size))
 
 
 def shielded(matches: Matches, actions: Floats, shield: Shield | None) -> Floats:
