@@ -48,6 +48,17 @@ def test_an_error_of_a_job_is_raised_when_all_threads_have_stopped(threads: int)
     assert len(done) == 6
 
 
+def test_a_thread_that_has_not_begun_is_not_waited_for() -> None:
+    workers, freed = Workers(2), threading.Event()
+    assert workers._executor is not None
+    busy = workers._executor.submit(freed.wait, 10.0)
+    done: list[int] = []
+    workers.run([done.append] * 6)
+    assert done == [0] * 6 and not busy.done()
+    freed.set()
+    assert busy.result()
+
+
 def test_an_only_part_may_have_fewer_rows_than_others() -> None:
     assert [len(shards(rows, 1024, 256)) for rows in (256, 257, 2048, 2049)] == [1, 2, 2, 4]
 

@@ -58,7 +58,8 @@ class Workers:
             _work(left, 0)
         finally:
             left.clear()
-            errors = [future.exception() for future in futures]
+            # Whoever has not begun has nothing left to do: on a busy machine it may wake late.
+            errors = [future.exception() for future in futures if not future.cancel()]
         for error in filter(None, errors):
             raise error
 
