@@ -7,7 +7,7 @@ use crate::arrays::{readable, values, writeable};
 use crate::config::{count, invalid};
 
 /// Most values that are copied by the caller's thread alone: waking others would take longer.
-const COPIED_ALONE: usize = 32 * 1024;
+const COPIED_ALONE: usize = 128 * 1024;
 
 /// Threads that the caller's thread shares work with.
 #[pyclass(frozen, module = "rsoccer._core")]
