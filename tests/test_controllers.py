@@ -231,6 +231,61 @@ def test_a_controller_in_si_units_may_act_by_the_observations_of_its_robots() ->
     assert same(Observing.seen[0], np.ascontiguousarray(shown[:, 3:]))
 
 
+class Intruder(CommandPolicy):
+    """Tries to write all that it is shown, in both of its calls."""
+
+    observes = "observation"
+    refusals: ClassVar[list[str]] = []
+
+    def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
+        match, view, playing = inputs.match, inputs.view, inputs.match and inputs.match.playing
+        assert match is not None
+        assert view is not None
+        shown = {
+            "rows": match.rows,
+            "score": match.game.score,
+            "robots": match.robots,
+            "ball": view.ball.data,
+            "slots": view.robots.data,
+            "observations": inputs.observations,
+            "playing": playing,
+        }
+        for name, array in shown.items():
+            if array is not None:
+                with pytest.raises(ValueError, match="read-only"):
+                    array[...] = 1
+                self.refusals.append(name)
+        return super().act(inputs, rng, memory)
+
+    def commands(
+        self, inputs: PolicyInput, converted: Floats, rng: WorldRng, memory: Memory
+    ) -> Floats:
+        self.act(inputs, rng, memory)
+        return converted
+
+
+@pytest.mark.parametrize("sensing", [None, "rc2021", "rc2021, forecast=1, own_cameras=1"])
+def test_policies_cannot_write_the_state_of_matches(sensing: str | None) -> None:
+    matches = Matches(
+        VssSelfPlay(max_steps=2),
+        2,
+        controllers={"yellow": Intruder()},
+        sensing=sensing,
+        autoreset="disabled",
+    )
+    matches.reset(seed=0)
+    Intruder.refusals.clear()
+    matches.step(zeros(matches))
+    assert len(Intruder.refusals) == 2 * 6, "of all but `playing`, in both calls"
+    matches.reset(mask=np.array([True, False]))
+    matches.step(zeros(matches))
+    matches.step(zeros(matches))
+    assert "playing" in Intruder.refusals
+    for frame in (matches.frame, matches.play.known_to_robots(np.array([0]))):
+        with pytest.raises(ValueError, match="read-only"):
+            frame.ball.position[:] = 0.0
+
+
 def test_a_controller_in_si_units_is_reproduced_saved_and_copied_like_a_policy() -> None:
     def new(worlds: int, seed: int) -> Matches:
         task = VssSelfPlay(max_steps=7)

@@ -1,3 +1,5 @@
+import copy
+
 import numpy as np
 import pytest
 
@@ -82,6 +84,18 @@ def test_a_copy_has_its_own_memory() -> None:
 def test_rows_that_do_not_fit_are_refused(rows: np.ndarray) -> None:
     with pytest.raises(ValueError, match="rows: expected"):
         Frame(rows, 3, 3)
+
+
+def test_a_read_only_frame_shows_later_writes_and_takes_none() -> None:
+    frame = Frame.empty(2, 1, 1)
+    shown = frame.read_only
+    assert frame.read_only is shown.read_only is shown
+    frame.ball.position[:] = 0.5
+    assert np.array_equal(shown.rows, frame.rows)
+    with pytest.raises(ValueError, match="read-only"):
+        shown.blue.position[:] = 1.0
+    shown.copy().ball.position[:] = 1.0
+    assert copy.deepcopy(frame).read_only is not shown
 
 
 def test_robot_names() -> None:

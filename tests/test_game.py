@@ -24,6 +24,7 @@ from rsoccer.game import (
     Event,
     EventKind,
     Events,
+    Game,
     Stage,
     new_game,
 )
@@ -116,6 +117,22 @@ def test_copies_share_no_memory(copied: object) -> None:
     other = copied(game)
     other.turns[:] = 1
     assert game.turns.tolist() == [0, 0]
+
+
+def test_read_only_arrays_show_later_writes_and_take_none() -> None:
+    game = Game({"score": np.zeros((2, 2), np.int64)})
+    shown = game.read_only
+    assert game.read_only is shown
+    assert list(shown) == list(game)
+    game.score[0, 1] = 3
+    assert shown.score[0, 1] == 3
+    with pytest.raises(ValueError, match="read-only"):
+        shown.score[:] = 1
+    copied = copy.deepcopy(game)
+    copied.score[:] = 7
+    assert (copied.read_only.score == 7).all()
+    game.score = np.ones((2, 2), np.int64)
+    assert (game.read_only.score == 1).all()
 
 
 def test_teams_and_nobody_differ() -> None:

@@ -102,6 +102,16 @@ def test_numbers_of_numpy_are_numbers() -> None:
     assert json.dumps(written({"robot.mass": ("normal", two, half)}))
 
 
+def test_no_episode_draws_a_number_beyond_the_bounds() -> None:
+    """Three deviations below .021 are 0, and the sum of the floats is just below it."""
+    ranges = {"sensing.delay": ("normal", 0.021, 0.007)}
+    numbers = Randomization.of(ranges, VssSelfPlay().config, Sensing()).sensing
+    assert numbers is not None
+    delays = numbers.draw(WorldRng.seeded(0, 20_000))[:, SENSING_NUMBERS.index("delay")]
+    assert (delays == 0.0).any(), "some are at the bound"
+    assert (delays >= 0.0).all()
+
+
 def test_whole_numbers_of_senses_are_drawn_whole() -> None:
     config = VssSelfPlay().config
     found = Randomization.of({"sensing.cameras_along": (1, 3)}, config, None).sensing

@@ -44,7 +44,7 @@ def test_the_same_actions_move_robots_alike_but_are_observed_otherwise(task: Tas
     assert theirs.sensed is theirs.frame
     assert theirs.sensed_view is theirs.view
     assert ours.senses is not None
-    assert ours.sensed is ours.senses.frame
+    assert ours.sensed is ours.senses.frame.read_only
     assert same(ours.view.ball.data, theirs.view.ball.data)
     assert not same(ours.sensed_view.ball.data, ours.view.ball.data)
 

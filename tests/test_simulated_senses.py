@@ -170,7 +170,8 @@ def test_a_step_writes_what_is_sensed_afterwards(sensing: str) -> None:
     }
     at_once = Matches("VSSMatch-v0", 6, 2, **options)
     assert at_once.play.senses is not None
-    assert at_once.play.senses.own_rows is at_once.play.sensed.rows
+    assert at_once.play.senses.own_rows is not None
+    assert np.shares_memory(at_once.play.senses.own_rows, at_once.play.sensed.rows)
     made: list[Sensible] = []
 
     def simulator(*arguments: Any) -> Sensible:  # noqa: ANN401  (those of a simulator)
@@ -224,11 +225,25 @@ def test_a_simulator_without_senses_is_refused() -> None:
         (lambda: Sensing(delay=-1.0), "sensing.delay must be finite and not negative"),
         (lambda: Sensing(missing=1.5), "sensing.missing_balls must be between 0 and 1"),
         (lambda: Sensing(noise=0.1), 'none has no "noise"; its numbers are frame_rate'),
+        (lambda: Sensing("rc2021, delay=.1, delay=.2"), 'expected each number once, got "delay"'),
+        (lambda: Sensing(position_noise=1e20), "ball_position_noise must be at most 100 m"),
+        (lambda: Sensing(heading_noise=1e10), "heading_noise must be at most 100 rad"),
+        (lambda: Sensing(camera_offset_error=101), "camera_offset_error must be at most 100 m"),
     ],
 )
 def test_wrong_senses_are_refused(make: Callable[[], Sensing], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         make()
+
+
+def test_the_largest_errors_leave_numbers_finite() -> None:
+    largest = {"position_noise": 100, "heading_noise": 100, "camera_offset_error": 100}
+    for text in ("none", "rc2021", "rc2021, forecast=1"):
+        matches = Matches("SSLContestedPossession-v0", 2, sensing=Sensing(text, **largest))
+        matches.reset(seed=1)
+        actions = np.zeros((2, len(matches.agents), matches.action_size), np.float32)
+        for _ in range(40):
+            assert np.isfinite(matches.step(actions).observations).all()
 
 
 def test_short_names_are_those_of_ball_and_robots_together() -> None:

@@ -1,3 +1,5 @@
+import copy
+
 import numpy as np
 import pytest
 
@@ -129,6 +131,19 @@ def test_a_cached_view_is_computed_again_after_it_has_expired() -> None:
     assert cached.of(frame, viewpoint) is view
     assert np.array_equal(view.ball.position[:, 0], frame.ball.position)
     assert np.array_equal(view.ball.position[:, 1], -frame.ball.position)
+
+
+def test_a_cached_view_cannot_be_written_by_its_readers() -> None:
+    frame, viewpoint = random_frame(3, 2, 2), Viewpoint(2, 2, [0, 3])
+    cached = CachedView()
+    view = cached.of(frame, viewpoint)
+    for part in (view, view.select(slice(0, 1))):
+        for array in (part.ball.data, part.ego.position, part.robots.data):
+            with pytest.raises(ValueError, match="read-only"):
+                array[...] = 0.0
+    twin = copy.deepcopy(cached)
+    frame.ball.position[:] += 1.0
+    assert np.array_equal(twin.of(frame, viewpoint).ball.position[:, 0], frame.ball.position)
 
 
 def test_a_view_may_have_no_observers() -> None:

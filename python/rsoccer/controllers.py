@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from rsoccer import checks, task_checks
 from rsoccer._core import SimConfig
-from rsoccer.arrays import Array, Floats, Mask
+from rsoccer.arrays import Array, Floats, Mask, read_only
 from rsoccer.frame import team_of
 from rsoccer.policies import make_policy
 from rsoccer.policies.base import (
@@ -57,6 +57,7 @@ class PolicyGroup:
     def __post_init__(self) -> None:
         """Find a slice of the robots, which is faster than indices."""
         self._written = _slice_if_possible(self.robots)
+        self._shown = read_only(self.robots)
 
     def act(
         self, play: Play, observations: Floats, actions: Floats, playing: Mask | None = None
@@ -112,10 +113,11 @@ class PolicyGroup:
         if self.policy.observes != "nothing":
             view = play.sensed_view.select(self.observer_indices)
             known = play.known_to_robots(self.robots)
-            game, threads, config = play.game, play.threads, self.config
-            match = MatchState(known.rows, game, self.robots, threads, config, playing)
+            game, threads, config = play.game.read_only, play.threads, self.config
+            match = MatchState(known.rows, game, self._shown, threads, config, playing)
         if self.policy.observes == "observation":
             observed = observations[:, self.observer_indices]
+            observed.flags.writeable = False  # a slice shares the memory of the matches
         return PolicyInput(shape, view, observed, self.optional_actions, match)
 
     def restart(self, worlds: NDArray[np.intp], rng: WorldRng, action_size: int) -> None:

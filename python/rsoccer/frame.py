@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rsoccer._core import BALL_COLUMNS, CROSSINGS, ROBOT_COLUMNS
-from rsoccer.arrays import Array, Floats
+from rsoccer.arrays import Array, Floats, read_only
 
 # Values of `BallColumns.crossed`.
 NO_CROSSING = CROSSINGS.index("none")
@@ -220,7 +220,7 @@ class Frame:
         (4, 6, 2)
     """
 
-    __slots__ = ("ball", "blue", "n_blue", "n_yellow", "robots", "rows", "yellow")
+    __slots__ = ("_read_only", "ball", "blue", "n_blue", "n_yellow", "robots", "rows", "yellow")
 
     def __init__(self, rows: Floats, n_blue: int, n_yellow: int) -> None:
         """View state rows as ball, blue robots and yellow robots.
@@ -234,6 +234,7 @@ class Frame:
             ValueError: rows of another shape, type or memory layout.
         """
         _check_rows(rows, row_size(n_blue, n_yellow))
+        self._read_only: Frame | None = None
         self.rows = rows
         self.n_blue = n_blue
         self.n_yellow = n_yellow
@@ -258,6 +259,17 @@ class Frame:
         frame.robots.heading[..., 0] = 1.0
         frame.ball.last_touch[:] = -1.0
         return frame
+
+    @property
+    def read_only(self) -> "Frame":
+        """The same state in the same memory, which cannot be written through it."""
+        found = self._read_only
+        if found is None:
+            if not self.rows.flags.writeable:
+                return self
+            rows = read_only(self.rows)
+            found = self._read_only = Frame(rows, self.n_blue, self.n_yellow)
+        return found
 
     def copy(self) -> "Frame":
         """Return the same state in new memory."""

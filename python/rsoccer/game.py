@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rsoccer._core import GAME_COLUMNS, MAX_EVENTS, STATISTICS_COLUMNS
-from rsoccer.arrays import Array, Floats, Mask
+from rsoccer.arrays import Array, Floats, Mask, read_only
 
 _ENDS: Final = re.compile(r"(_(blue|yellow|x|y|\d+))+$")
 """Ends of the names of columns that belong together."""
@@ -200,6 +200,8 @@ class Event(NamedTuple):
 class NamedArrays(Mapping[str, Array]):
     """Arrays (n, ...) by name, which are attributes too: `arrays.name` is `arrays["name"]`."""
 
+    __slots__ = ("__dict__", "__weakref__", "_read_only")
+
     def __init__(self, arrays: Mapping[str, Array]) -> None:
         """Name arrays.
 
@@ -207,6 +209,25 @@ class NamedArrays(Mapping[str, Array]):
             arrays: arrays (n, ...) by name; not copied.
         """
         self.__dict__.update(arrays)
+        self._read_only: Self | None = None  # in a slot: `__dict__` holds the arrays alone
+
+    @property
+    def read_only(self) -> Self:
+        """The same arrays in the same memory, which cannot be written through it."""
+        found = self._read_only
+        if found is None:
+            arrays = {name: read_only(array) for name, array in self.items()}
+            found = self._read_only = type(self)(arrays)
+        return found
+
+    def __setattr__(self, name: str, value: object) -> None:
+        super().__setattr__(name, value)
+        if name != "_read_only":
+            self._read_only = None
+
+    def __reduce__(self) -> tuple[type[Self], tuple[dict[str, Array]]]:
+        # The read-only arrays would become copies, which show nothing of later writes.
+        return type(self), (dict(self.__dict__),)
 
     def __getitem__(self, name: str) -> Array:
         array: Array = self.__dict__[name]

@@ -81,7 +81,7 @@ class Play:
         robot is as its own team knows it, and the ball as blue does. A team without observers does
         not forecast unless it is asked to (`Matches.forecasting`).
         """
-        return self.frame if self.senses is None else self.senses.frame
+        return self.frame if self.senses is None else self.senses.frame.read_only
 
     def known_to(self, team: int) -> Frame:
         """Return (n, ...) the current state as a team knows it.
@@ -89,10 +89,10 @@ class Play:
         Args:
             team: 0 for blue, 1 for yellow.
         """
-        return self.frame if self.senses is None else self.senses.known_to(team)
+        return self.frame if self.senses is None else self.senses.known_to(team).read_only
 
     def known_to_robots(self, robots: NDArray[np.intp]) -> Frame:
-        """Return (n, ...) the current state as some robots know it.
+        """Return (n, ...) the current state as some robots know it, which cannot be written.
 
         Args:
             robots: (k,) indices of robots in the order of a state row; of one team where teams know
@@ -102,14 +102,14 @@ class Play:
             ValueError: robots of both teams, which know different states.
         """
         if not self.teams_differ or not len(robots):
-            return self.sensed
+            return self.sensed.read_only
         are_yellow = robots >= self.frame.n_blue
         if are_yellow.any() != are_yellow.all():
             raise ValueError(
                 "robots: expected robots of one team, because teams know different states, "
                 f"got {robots.tolist()}"
             )
-        return self.known_to(int(are_yellow[0]))
+        return self.known_to(int(are_yellow[0])).read_only
 
     @property
     def teams_differ(self) -> bool:

@@ -117,19 +117,24 @@ class Distribution:
             count: how many a world.
 
         Returns:
-            (k, count) float32.
+            (k, count) float32, within the bounds: a sum of floats may be a rounding beyond them,
+            where the simulator would refuse the number in some episode.
         """
+        low, high = map(np.float32, self.bounds)
+        return np.clip(self._drawn(rng, count), low, high)
+
+    def _drawn(self, rng: WorldRng, count: int) -> Floats:
+        """Draw numbers, which may be a rounding beyond the bounds."""
         if self.is_whole:
-            low, high = self.bounds
             reach = 0.5 if self.kind == "uniform" else 0.0
             around = Distribution(self.kind, self.first - reach, self.second + reach)
-            return np.clip(np.rint(around.draw(rng, count)), np.float32(low), np.float32(high))
+            return np.rint(around._drawn(rng, count))
         if self.kind == "normal":
             deviation = np.clip(rng.normal((count,)), -3.0, 3.0)
             return np.float32(self.first) + np.float32(self.second) * deviation
         if self.kind == "log_uniform":
             drawn = rng.uniform(math.log(self.first), math.log(self.second), (count,))
-            return np.exp(drawn, dtype=np.float32).clip(self.first, self.second)
+            return np.exp(drawn, dtype=np.float32)
         return rng.uniform(self.first, self.second, (count,))
 
 

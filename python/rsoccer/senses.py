@@ -159,12 +159,12 @@ class ModelSenses(Senses):
     def begin(self, frame: Frame, worlds: NDArray[np.intp]) -> None:
         """Sense the initial state of all n episodes; see `Senses.begin`."""
         self.frame.rows[:] = frame.rows
-        self.model.begin(frame, self.frame, self.state, self.rng)
+        self.model.begin(frame.read_only, self.frame, self.state, self.rng)
         self._check("begin")
 
     def sense(self, frame: Frame, active: Mask | None = None) -> None:
         """Sense the state after a step; see `Senses.sense`."""
-        self.model.sense(frame, self.frame, self.state, self.rng)
+        self.model.sense(frame.read_only, self.frame, self.state, self.rng)
         self._check("sense")
 
     def _check(self, method: str) -> None:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from rsoccer import _core
 from rsoccer._core import BALL_COLUMNS, ROBOT_COLUMNS
-from rsoccer.arrays import Floats, Mask
+from rsoccer.arrays import Floats, Mask, read_only
 from rsoccer.frame import BallColumns, Frame, RobotColumns
 
 SIDES = ("blue", "yellow")
@@ -168,11 +168,12 @@ class Viewpoint:
 class CachedView:
     """View of a frame, computed when it is first read after a change of the frame."""
 
-    __slots__ = ("_current", "_view")
+    __slots__ = ("_buffer", "_current", "_view")
 
     def __init__(self) -> None:
         """Begin without a view."""
         self._view: View | None = None
+        self._buffer: View | None = None
         self._current = False
 
     def of(self, frame: Frame, viewpoint: Viewpoint, yellow: Frame | None = None) -> View:
@@ -184,16 +185,23 @@ class CachedView:
             yellow: state as yellow observers know it, as `frame`; `frame` if None.
 
         Returns:
-            The view, always the same object; overwritten by the first call after `expire`.
+            The view, always the same object, which cannot be written: those who read it after
+            others see the same. Overwritten by the first call after `expire`.
         """
-        view = self._view
-        if view is None:
-            view = self._view = viewpoint.new_view(len(frame))
+        view, buffer = self._view, self._buffer
+        if view is None or buffer is None:
+            buffer = self._buffer = viewpoint.new_view(len(frame))
+            ball, robots = read_only(buffer.ball.data), read_only(buffer.robots.data)
+            view = self._view = View(ball, robots, buffer.n_teammates)
         if not self._current:
-            viewpoint.fill(frame, view, yellow)
+            viewpoint.fill(frame, buffer, yellow)
             self._current = True
         return view
 
     def expire(self) -> None:
         """Have the view computed again, because the frame has changed."""
         self._current = False
+
+    def __reduce__(self) -> tuple[type["CachedView"], tuple[()]]:
+        # A copy of the view would show nothing of what is written to the copy of the buffer.
+        return CachedView, ()

@@ -464,7 +464,7 @@ class LimitsABlockThatItDoesNotHave(Correct):
         (KeepsMemoryAfterReset, r"keeps state on self, in KeepsMemoryAfterReset\.kept"),
         (StopsTheBall, "calculate_reward_and_done: it writes into play.frame, which"),
         (WritesAtGoals, "calculate_reward_and_done: it writes into play.frame, which"),
-        (ScalesItsView, "frame_to_observations: it writes into play.view, which"),
+        (ScalesItsView, "frame_to_observations: .*read-only"),
         (ScalesTheLastView, "metrics: it writes into play.last_view, which"),
         (ClipsItsActions, "get_commands: it writes into play.actions, which"),
         (SetsTheClock, "metrics: it writes into play.steps, which"),

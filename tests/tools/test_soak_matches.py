@@ -70,12 +70,12 @@ def foul(matches: Matches) -> None:
 
 def speed(matches: Matches) -> None:
     """A robot that is faster than the way that was counted."""
-    matches.frame.robots.velocity[1, 0] = 9.0
+    matches.play.frame.robots.velocity[1, 0] = 9.0
 
 
 def nothing(matches: Matches) -> None:
     """No number is a number."""
-    matches.frame.ball.position[1] = np.nan
+    matches.play.frame.ball.position[1] = np.nan
 
 
 @pytest.mark.parametrize(

@@ -177,7 +177,7 @@ fn of_text<T: Model>(text: &str) -> PyResult<T> {
         Some(name) => of_text(name)?,
         None => T::preset(OFF).or_else(|_| T::preset(text))?,
     };
-    let mut given = Vec::new();
+    let mut given: Vec<(String, f32)> = Vec::new();
     for part in parts {
         let pair = part.split_once('=').map(|(key, value)| (key.trim(), value.trim()));
         let Some((key, Ok(number))) = pair.map(|(key, value)| (key, value.parse::<f64>())) else {
@@ -185,6 +185,11 @@ fn of_text<T: Model>(text: &str) -> PyResult<T> {
                 "expected number=value after the name, as in 'rc2021, delay=0.1', got {part:?} in {text:?}"
             )));
         };
+        if given.iter().any(|(before, _)| before == key) {
+            return Err(PyValueError::new_err(format!(
+                "expected each number once, got {key:?} twice in {text:?}"
+            )));
+        }
         given.push((key.to_owned(), narrowed(number)));
     }
     model.set_all(given)?;

@@ -302,7 +302,9 @@ class LearnerPolicy:
             known = play.known_to_robots(robots)
             config = self._matches.task.config
             playing = ~self._matches.done
-            match = MatchState(known.rows, play.game, robots, play.threads, config, playing)
+            match = MatchState(
+                known.rows, play.game.read_only, robots, play.threads, config, playing
+            )
         if self._policy.observes == "observation":
             own = observations if is_whole else observations[:, team.agents]
         optional = self._matches.task.optional_action_size

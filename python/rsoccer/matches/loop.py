@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from rsoccer import checks, spaces
 from rsoccer._core import Sensing, Simulator, Threads
-from rsoccer.arrays import Array, Doubles, Floats, Mask
+from rsoccer.arrays import Array, Doubles, Floats, Mask, read_only
 from rsoccer.controllers import Controllers, assign, resolve
 from rsoccer.frame import Frame
 from rsoccer.global_state import StateEncoder
@@ -273,7 +273,7 @@ class Matches:
     @property
     def frame(self) -> Frame:
         """Current state of all worlds, to be read only, valid until the next step."""
-        return self.play.frame
+        return self.play.frame.read_only
 
     @property
     def done(self) -> Mask:
@@ -632,7 +632,7 @@ class Matches:
             self._waited = np.flatnonzero(self._done)
             groups = self.assignment.groups
             paused = PausedWorlds(self._waited, self.play, groups, self._observations)
-        active = ~self._done if paused else None
+        active = read_only(~self._done) if paused else None
         self._act(actions, active)
         if self.history > 1:
             self._remember(actions, active)

@@ -53,7 +53,8 @@ class MatchState:
 class PolicyInput:
     """Input of one policy step, for the robots that the policy drives, in order.
 
-    The arrays are valid during the call: the next step overwrites them.
+    The arrays are valid during the call: the next step overwrites them. Those that share memory
+    with the matches cannot be written.
     """
 
     action_shape: tuple[int, int, int]

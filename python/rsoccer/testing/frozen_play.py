@@ -29,7 +29,7 @@ def freezable(play: Play) -> list[str]:
 
 
 def frozen(play: Play, parts: Collection[str]) -> Play:
-    """Return a copy of a state in which the arrays of some parts are read-only.
+    """Return a copy of a state in which the arrays of some parts are read-only, and no others.
 
     Args:
         play: state of n worlds.
@@ -40,10 +40,12 @@ def frozen(play: Play, parts: Collection[str]) -> Play:
         if name not in VIEWS:
             setattr(copy, name, _read_only(getattr(copy, name)))
     for name in VIEWS:
-        if name in parts:
+        if name != "sensed_view" or play.senses is not None:  # else it is `view`
             view: View = getattr(copy, name)
-            # In place: the state keeps the object and computes it once.
-            ball, robots = map(_array, (view.ball.data, view.robots.data))
+            # Read-only in every state. In place: it keeps the object and computes it once.
+            ball, robots = view.ball.data.copy(), view.robots.data.copy()
+            if name in parts:
+                ball, robots = _array(ball), _array(robots)
             View.__init__(view, ball, robots, view.n_teammates)
     return copy
 

@@ -151,7 +151,8 @@ impl Sensing {
         self.values().iter().all(|value| *value == 0.0)
     }
 
-    /// Checks every number against its range, and numbers that set how much work a step is against limits.
+    /// Checks every number against its range, numbers that set how much work a step is against limits, and
+    /// errors of detections against what the tracker can follow.
     ///
     /// # Errors
     /// [`ConfigError`] with the name of the first wrong number.
@@ -166,6 +167,10 @@ impl Sensing {
             ("sensing.command_jitter", self.command_jitter, MAX_DELAY, "at most 1 s"),
             ("sensing.cameras_along", self.cameras_along, MAX_CAMERAS, "at most 8"),
             ("sensing.cameras_across", self.cameras_across, MAX_CAMERAS, "at most 8"),
+            ("sensing.ball_position_noise", self.ball_position_noise, MAX_ERROR, "at most 100 m"),
+            ("sensing.robot_position_noise", self.robot_position_noise, MAX_ERROR, "at most 100 m"),
+            ("sensing.heading_noise", self.heading_noise, MAX_ERROR, "at most 100 rad"),
+            ("sensing.camera_offset_error", self.camera_offset_error, MAX_ERROR, "at most 100 m"),
         ];
         for (name, got, limit, expected) in limits {
             if got > limit {
@@ -206,6 +211,9 @@ const MAX_FRAME_RATE: f32 = 1000.0;
 const MAX_DELAY: f32 = 1.0;
 /// Maximum number of cameras in each direction.
 const MAX_CAMERAS: f32 = 8.0;
+/// Maximum errors of detections, far beyond all fields: the tracker's squares of larger ones overflow, and
+/// robots would know NaN.
+const MAX_ERROR: f32 = 100.0;
 
 #[cfg(test)]
 mod tests {
@@ -220,13 +228,17 @@ mod tests {
     }
 
     #[test]
-    fn numbers_that_cost_time_or_memory_have_limits() {
+    fn numbers_that_cost_time_or_make_no_sense_have_limits() {
         for (name, wrong) in [
             ("delay", 1.5),
             ("frame_rate", 2000.0),
             ("cameras_along", 9.0),
             ("cameras_along", 1.5),
             ("missing_balls", 1.1),
+            ("ball_position_noise", 101.0),
+            ("robot_position_noise", 1e20),
+            ("heading_noise", 1e10),
+            ("camera_offset_error", 101.0),
         ] {
             let mut sensing = Sensing::OFF;
             *sensing.number_mut(name).expect("a number") = wrong;

@@ -126,6 +126,7 @@ def shielded(matches: Matches, actions: Floats, shield: Shield | None) -> Floats
             robots = learners[team]
             known = play.known_to_robots(robots)
             part = shielded[:, team]
-            shield.apply(MatchState(known.rows, play.game, robots, play.threads, config), part)
+            game = play.game.read_only
+            shield.apply(MatchState(known.rows, game, robots, play.threads, config), part)
             shielded[:, team] = part
     return shielded
