@@ -109,10 +109,7 @@ class Settings:
         if self.source != "vision" and self.league != "ssl":
             raise ValueError(f"source: expected 'vision' with firasim, got {self.source!r}")
         self._check_places()
-        for name in ("ids", "opponent_ids"):
-            for number in getattr(self, name) or ():
-                if checks.integer(name, number, 0) > MAX_ID:
-                    raise ValueError(f"{name}: expected 0 to {MAX_ID}, got {number}")
+        self._check_ids()
         for name, low, high in (
             ("patience", 0.01, 1e6),
             ("rate", 1.0, 1000.0),
@@ -137,6 +134,12 @@ class Settings:
         for name in self.groups:
             if name not in groups:
                 raise ValueError(f"groups: expected names of {groups}, got {name!r}")
+
+    def _check_ids(self) -> None:
+        for name in ("ids", "opponent_ids"):
+            for number in getattr(self, name) or ():
+                if checks.integer(name, number, 0) > MAX_ID:
+                    raise ValueError(f"{name}: expected 0 to {MAX_ID}, got {number}")
 
     @property
     def league(self) -> str:

@@ -41,9 +41,9 @@ _RANGES: Final = {
 """Least and greatest numbers of a robot by field of the message.
 
 The greatest size is that of the league's rules; the least one has room for a mouth and is higher
-than the ball. A robot that pushes two of 2.7 kg against the wall overlaps them by 1.3 mm with a mass
-of 10 kg, by 16 mm with 100 kg, and passes through them with 1000 kg. Speeds are those with which
-bodies can be placed.
+than the ball. A robot that pushes two of 2.7 kg against the wall overlaps them by 1.3 mm with a
+mass of 10 kg, by 16 mm with 100 kg, and passes through them with 1000 kg. Speeds are those with
+which bodies can be placed.
 """
 _ROUNDING: Final = 1e-6
 """Share by which single precision may exceed the ends of a range: .09 on the wire is above it."""
