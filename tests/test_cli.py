@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from rsoccer import cli
+from rsoccer import cli, interrupts
 
 
 def one_line(text: str) -> str:
@@ -109,7 +109,7 @@ def test_ctrl_c_exits_with_130() -> None:
     finally:
         worker.kill()
         worker.wait()
-    assert worker.returncode == cli.INTERRUPTED
+    assert worker.returncode == interrupts.INTERRUPTED
     assert "Traceback" not in printed[1]
 
 

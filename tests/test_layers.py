@@ -17,7 +17,7 @@ LAYERS = [
     {"_core"},
     {
         *{"arrays", "files", "markers", "matches.consistency", "option_values", "plugins"},
-        *{"option_words", "sensing_text"},
+        *{"interrupts", "option_words", "sensing_text"},
     },
     {"frame", "reflection", "vectors"},
     {"rng", "game", "global_state", "view", "entities"},

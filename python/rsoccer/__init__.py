@@ -10,6 +10,7 @@ environment with a row for each robot. A `Task` defines observations, actions, r
 of episodes, a `Policy` controls robots that do not learn.
 """
 
+from rsoccer import interrupts  # noqa: F401  (first, as it acts while the others are imported)
 from rsoccer._core import (
     BALL_PARAMETERS,
     ROBOT_PARAMETERS,

@@ -9,8 +9,9 @@ import os
 import sys
 from collections.abc import Sequence
 
+from rsoccer import interrupts
+
 WRONG_INPUT = 2  # exit status for wrong input, as of command-line parsers
-INTERRUPTED = 130  # exit status after Ctrl-C, as shells report it: 128 + SIGINT
 
 REPEATABLE = "--import"
 """The option that may be given more than once."""
@@ -42,17 +43,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
         arguments: words after `rsoccer`; by default those of `sys.argv`.
 
     Returns:
-        Exit status: 0, `WRONG_INPUT` or `INTERRUPTED`.
+        Exit status: 0, `WRONG_INPUT`, or `interrupts.INTERRUPTED` after Ctrl-C.
 
     Raises:
         SystemExit: with status 2 if the words cannot be parsed, 0 after `--help`, or the status
             of an interrupted training run.
     """
     try:
+        interrupts.handle()
         _run(arguments)
         sys.stdout.flush()
     except KeyboardInterrupt:
-        return INTERRUPTED
+        return interrupts.INTERRUPTED
     except BrokenPipeError:
         # The reader of the output has closed it. Otherwise Python reports a second error at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -11,7 +11,7 @@ import pytest
 
 from rsoccer import Sensing
 from rsoccer.bridge import recording
-from rsoccer.bridge.recording import record
+from rsoccer.bridge.recording import MAX_COMMAND, record
 from rsoccer.bridge.server import MAX_HEARD
 from rsoccer.game import Command
 from rsoccer.protocols.logs import LogKind, read_log
@@ -43,6 +43,17 @@ def test_a_replay(tmp_path: Path) -> None:
     state = replay.referee_states[-1]
     assert state.command_seconds == pytest.approx(1.0, abs=0.05)
     assert "canvas" in replay.to_html()
+
+
+def test_a_replay_of_absurd_commands_is_written(tmp_path: Path) -> None:
+    wall = Wall()
+    with record(wall.server, tmp_path / "match.rsr"):
+        for _ in range(4):
+            wall.team(local_velocity([1], forward=9e8, left=-9e8, angular=-9e8))
+            wall.tick(5)
+    replay = Replay.load(tmp_path / "match.rsr")
+    assert replay.commands[-1, 1, :3].tolist() == [MAX_COMMAND, -MAX_COMMAND, -MAX_COMMAND]
+    np.testing.assert_allclose(replay.frame.robots.position[-1], wall.robots.position[0], atol=1e-3)
 
 
 def test_a_log(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from rsoccer import cli
@@ -29,9 +30,12 @@ def test_replays_become_logs_and_logs_replays(
     assert "log: " in capsys.readouterr().out
     assert next(iter(read_log(log))).time == 100 * 10**9
     assert read_index(log) is not None
-    assert cli.main(["convert", str(log), str(back), "--time-step", "0.05"]) == 0
+    options = ["--time-step", "0.05", "--blue-on-positive-half"]
+    assert cli.main(["convert", str(log), str(back), *options]) == 0
     assert "(0.5 s)" in capsys.readouterr().out
-    assert Replay.load(back).config.time_step == pytest.approx(0.05)
+    found, made = Replay.load(back), Replay.load(replay)
+    assert found.config.time_step == pytest.approx(0.05)
+    np.testing.assert_allclose(found.frame.ball.position[0], made.frame.ball.position[0], atol=1e-3)
 
 
 def test_wrong_files_are_refused(

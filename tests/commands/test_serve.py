@@ -59,6 +59,7 @@ def test_a_match_is_served_and_recorded(
         (["--ports", "blue=10300"], "ports: expected others for control and blue, got 10300 twice"),
         (["--ports", "vision=10010"], "ports: expected others for vision and tracker, got 10010"),
         (["--record", "a.rsr", "a.rsr"], "record: expected each file once, got a.rsr a.rsr"),
+        (["--record", "a.log", "./a.log"], "record: expected each file once, got a.log ./a.log"),
         (
             ["--task-options", "half=60"],
             "options: unknown ['half']; valid are ['robot', ",

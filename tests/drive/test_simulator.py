@@ -124,6 +124,18 @@ def test_bodies_are_where_a_task_wants_them_and_others_are_gone() -> None:
     assert matches.play.times is not None
 
 
+@pytest.mark.parametrize("referee", ["own", "off"])
+def test_a_referee_that_has_a_part_is_named_once(
+    referee: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    link = ServerLink(referee=referee)
+    matches = matches_of(GO_TO_BALL, link, "ssl-simulation")
+    for seed in range(3):
+        matches.reset(seed=seed)
+    found = [record for record in caplog.records if record.message.startswith("referee: ")]
+    assert len(found) == (1 if referee == "own" else 0)
+
+
 def test_robots_rest_before_they_are_put_somewhere() -> None:
     link = ServerLink(referee="off")
     config = SimConfig("ssl_b", 1, 0)

@@ -59,5 +59,8 @@ def test_faulty_programs_are_refused() -> None:
         program(max_speed=0.0)
     with pytest.raises(ValueError, match="pause"):
         program(pause=-1.0)
+    for number in ("max_speed", "max_angular_velocity", "pause"):
+        with pytest.raises(ValueError, match=r"^program: expected at most 3600 s, got .*e\+1"):
+            program(**{number: 1e12})  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="rate"):
         program().to_csv(0.0)

@@ -124,6 +124,20 @@ def test_matches_of_vsss_have_no_referee_in_logs(tmp_path: Path) -> None:
     assert {entry.kind for entry in read_log(path)} == {LogKind.VISION, LogKind.TRACKER}
 
 
+def test_the_side_of_a_log_without_a_referee_is_given(tmp_path: Path) -> None:
+    replay = match()
+    whole = replay_to_log(replay, tmp_path / "a.log", blue_on_positive_half=True)
+    path = without(whole, LogKind.REFEREE, tmp_path / "b.log")
+    expected = replay.frame.ball.position
+    for given, sign in ((True, 1.0), (False, -1.0)):
+        found = log_to_replay(path, blue_on_positive_half=given)
+        assert np.allclose(sign * found.frame.ball.position, expected, atol=1e-5)
+    # Packets of a referee count before what is given.
+    for given in (True, False):
+        found = log_to_replay(whole, blue_on_positive_half=given)
+        assert np.allclose(found.frame.ball.position, expected, atol=1e-5)
+
+
 def test_sides_change_at_half_time(tmp_path: Path) -> None:
     frame = state(worlds=1)
     with LogWriter(tmp_path / "a.log") as log:

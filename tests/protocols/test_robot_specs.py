@@ -33,9 +33,40 @@ def test_impossible_robots_are_refused(numbers: dict[str, float]) -> None:
     specs = simulation_pb2.RobotSpecs(id=IDENTITY)
     for name, number in numbers.items():
         setattr(specs, name, number)
-    with pytest.raises(MessageError, match=r"^robot_specs: ") as error:
+    with pytest.raises(MessageError, match=r"^robot_specs") as error:
         to_robot_model(RobotModel("ssl_generic"), specs)
     assert error.value.code is Code.INVALID_SPEC
+
+
+@pytest.mark.parametrize(
+    ("name", "low", "high"),
+    [
+        ("radius", 0.05, 0.09),
+        ("height", 0.05, 0.15),
+        ("mass", 0.1, 10.0),
+        ("max_linear_kick_speed", 0.0, 20.0),
+        ("max_chip_kick_speed", 0.0, 20.0),
+        ("vel_absolute_max", 0.0, 20.0),
+        ("vel_angular_max", 0.0, 200.0),
+    ],
+)
+def test_numbers_of_no_robot_are_refused_by_name_and_range(
+    name: str, low: float, high: float
+) -> None:
+    for value in (-1.0, 0.98 * low - 1e-3, 1.02 * high, 1e8):
+        specs = simulation_pb2.RobotSpecs(id=IDENTITY)
+        setattr(specs.limits if name.startswith("vel_") else specs, name, value)
+        with pytest.raises(MessageError) as error:
+            to_robot_model(RobotModel("ssl_generic"), specs)
+        assert error.value.code is Code.INVALID_SPEC
+        assert f"robot_specs.{name}: expected {low:g} to {high:g}, got " in str(error.value)
+
+
+def test_the_largest_robots_of_the_rules_are_taken() -> None:
+    # In single precision, as on the wire, both sizes are above those of the rules.
+    specs = simulation_pb2.RobotSpecs(id=IDENTITY, radius=0.09, height=0.15, mass=10.0)
+    model = to_robot_model(RobotModel("ssl_generic"), specs)
+    assert (model.radius, model.height) == pytest.approx((0.09, 0.15))
 
 
 def test_robots_on_two_wheels_are_not_described() -> None:

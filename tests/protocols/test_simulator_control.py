@@ -88,6 +88,16 @@ def test_robots_get_other_numbers() -> None:
     assert codes(result.problems) == [Code.UNSUPPORTED_CUSTOM, Code.INVALID_SPEC]
 
 
+def test_of_two_places_of_a_robot_the_first_counts() -> None:
+    message = simulation_pb2.Command()
+    for x in (1.0, 2.0):
+        robot = message.control.teleport_robot.add(x=x, y=0.5)
+        robot.id.id, robot.id.team = 15, simulation_pb2.YELLOW
+    result = read(message)
+    assert codes(result.problems) == [Code.DUPLICATE_ROBOT]
+    assert result.placement.frame.robots.position[0, 6].tolist() == [1.0, 0.5]
+
+
 def test_a_ball_is_not_pulled() -> None:
     message = simulation_pb2.Command()
     message.control.teleport_ball.by_force = True

@@ -345,6 +345,7 @@ PRIVATE: Final = (
     "rsoccer.human.*",
     "rsoccer.identify.*",
     "rsoccer.ids",
+    "rsoccer.interrupts",
     "rsoccer.new_play",
     "rsoccer.registry.overrides",
     "rsoccer.task_checks",

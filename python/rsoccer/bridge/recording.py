@@ -33,6 +33,9 @@ MAX_SECONDS: Final = 3600.0
 frame of six against six. A log is written as the match goes on, and has no limit."""
 PERIOD: Final = 0.025
 """Time between two frames of a replay, s: the control step of the tasks."""
+MAX_COMMAND: Final = 1e6
+"""Greatest number of a command in a replay, m/s or rad/s. Robots take what they can of any command,
+but the file has no room for the largest ones."""
 _LOGGER: Final = logging.getLogger(__name__)
 _EVERY: Final = round(PERIOD / TICK)
 _LEFT_OUT: Final = "replay: ticks left out"
@@ -179,7 +182,7 @@ class ReplayRecorder:
         frame.robots.touched_ball[0] = self._touched
         self._touched[:] = 0.0
         self._rows.append(row)
-        self._commands.append(session.commands.copy())
+        self._commands.append(np.clip(session.commands, -MAX_COMMAND, MAX_COMMAND))
         self._sensed.append(arena.sense().rows[0].copy())
         referee = referee_row(arena.task, arena.play)
         assert referee is not None, "match tasks have a referee"

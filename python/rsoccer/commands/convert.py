@@ -26,7 +26,7 @@ class Convert(Imports):
     start: float = 0.0
     """time of the first frame of the log, seconds since 1970"""
     blue_on_positive_half: bool = False
-    """put blue's goal at +x in the log"""
+    """put blue's goal at +x in the log; or it is there in a log without a referee to read"""
     index: bool = False
     """end a log that is not compressed in an index, with which players jump"""
     time_step: float = 0.025
@@ -67,9 +67,14 @@ class Convert(Imports):
     def _write_replay(self) -> None:
         from rsoccer.protocols.log_replay import log_to_replay
 
-        self._refuse("start", "blue_on_positive_half", "index")
+        self._refuse("start", "index")
         check_output("target", self.target, SUFFIX)
-        replay = log_to_replay(self.source, time_step=self.time_step, field=self.field)
+        replay = log_to_replay(
+            self.source,
+            time_step=self.time_step,
+            field=self.field,
+            blue_on_positive_half=self.blue_on_positive_half,
+        )
         write(f"replay: {replay.save(self.target)} ({replay.seconds:g} s)")
 
     def _refuse(self, *names: str) -> None:

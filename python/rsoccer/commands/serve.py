@@ -9,6 +9,7 @@ import time
 from collections.abc import Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Final, Literal
 
 from tyro.conf import Positional, arg
@@ -192,7 +193,8 @@ class Serve(Imports):
         """Record, and show the page."""
         from rsoccer.bridge.recording import check_record, record
 
-        if len(set(self.record)) < len(self.record):
+        # "a.rsr" and "./a.rsr" are one file, to which two writers must not write.
+        if len({Path(path).resolve() for path in self.record}) < len(self.record):
             raise ValueError(f"record: expected each file once, got {' '.join(self.record)}")
         for path in self.record:
             check_record(server, path)

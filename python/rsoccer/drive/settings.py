@@ -29,6 +29,9 @@ _PORTS: Final[Mapping[str, Mapping[str, int]]] = {
     },
     "firasim": {name: VSSS_PORTS[name] for name in ("vision", "referee", "command")},
 }
+MAX_ID: Final = 15
+"""Greatest uniform number of a robot: the rules of the SSL have 16 patterns of colors, and FIRASim
+numbers the 5 robots of a team from 0."""
 LISTENING: Final = ("vision", "tracker", "referee")
 """Names of the ports at which a connection receives what is sent to groups."""
 
@@ -40,7 +43,7 @@ class Settings:
     Attributes:
         peer: protocol of the commands, one of `PEERS`.
         team: team that policies of blue drive, "blue" or "yellow" on the wire.
-        ids: uniform numbers of its robots by slot; None for 0, 1, ...
+        ids: uniform numbers of its robots by slot, 0 to `MAX_ID`; None for 0, 1, ...
         opponent_ids: those of the other team.
         host: address to which commands go.
         interface: address of the interface on which vision and referee are heard.
@@ -106,6 +109,7 @@ class Settings:
         if self.source != "vision" and self.league != "ssl":
             raise ValueError(f"source: expected 'vision' with firasim, got {self.source!r}")
         self._check_places()
+        self._check_ids()
         for name, low, high in (
             ("patience", 0.01, 1e6),
             ("rate", 1.0, 1000.0),
@@ -130,6 +134,12 @@ class Settings:
         for name in self.groups:
             if name not in groups:
                 raise ValueError(f"groups: expected names of {groups}, got {name!r}")
+
+    def _check_ids(self) -> None:
+        for name in ("ids", "opponent_ids"):
+            for number in getattr(self, name) or ():
+                if checks.integer(name, number, 0) > MAX_ID:
+                    raise ValueError(f"{name}: expected 0 to {MAX_ID}, got {number}")
 
     @property
     def league(self) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from typing import Final
 
 import numpy as np
@@ -15,6 +16,7 @@ from rsoccer.frame import Frame
 from rsoccer.simulated_senses import SensingStepper
 from rsoccer.simulator_interface import Closer, Placer, Reader, Stepper
 
+_LOGGER: Final = logging.getLogger(__name__)
 TOLERANCE: Final = 0.002
 """Time by which a frame may be early to end a step, s: stamps are rounded."""
 PLACED: Final = 0.05
@@ -219,6 +221,8 @@ class UntouchedNetwork(NetworkStepper, Placer):
 class NetworkSimulator(NetworkStepper, Placer):
     """A simulator on a network, which puts bodies where tasks want them."""
 
+    _has_warned = False
+
     def place(
         self, worlds: Mask, rows: Floats, out: Floats, parameters: Floats | None = None
     ) -> Doubles | None:
@@ -283,7 +287,17 @@ class NetworkSimulator(NetworkStepper, Placer):
         self._let_pass(2)
         if hidden:
             self._suppose_ball(wanted)
+        self._warn_of_referee()
         return self.read(out)
+
+    def _warn_of_referee(self) -> None:
+        """Say once that a referee has a part in the results, which nobody would see in them."""
+        if self.connection.officials.packets and not self._has_warned:
+            self._has_warned = True
+            _LOGGER.warning(
+                "referee: one is heard, which may halt robots and put them somewhere; results are "
+                "those of the task with a simulator without a referee"
+            )
 
     def _suppose_ball(self, wanted: Frame) -> None:
         """Take the ball to lie where it was put at a robot, unless a camera sees it soon."""

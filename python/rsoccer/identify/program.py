@@ -17,6 +17,8 @@ from rsoccer.identify.log import DRIVES, KICK
 
 MAX_RATE: Final = 1000.0
 """Greatest rate of commands, Hz: no link to a robot is as fast."""
+MAX_SECONDS: Final = 3600.0
+"""Longest program, s: steps last as long as the robot needs for them, and memory is limited."""
 LEVELS: Final = (0.3, 0.6, 1.0)
 """Parts of the greatest speeds that are commanded."""
 KICKS: Final = (1.5, 3.0, 6.0)
@@ -107,8 +109,8 @@ def program(
 
     Raises:
         TypeError: `robot` is no model, or a number is none.
-        ValueError: no such preset, wheels that cannot be commanded by a log, or a number that is
-            not positive.
+        ValueError: no such preset, wheels that cannot be commanded by a log, a number that is not
+            positive, or a program longer than `MAX_SECONDS`.
     """
     model = RobotModel(robot) if isinstance(robot, str) else robot
     if not isinstance(model, RobotModel):
@@ -135,6 +137,11 @@ def program(
         if model.has_mouth:
             pieces.add(_KICK, kick=ball)
         pieces.add(2.0)
+    if pieces.seconds > MAX_SECONDS:
+        raise ValueError(
+            f"program: expected at most {MAX_SECONDS:g} s, got {pieces.seconds:g} s; lower "
+            "max_speed, max_angular_velocity or pause"
+        )
     return pieces.program(model.drive, tuple(balls))
 
 

@@ -104,7 +104,7 @@ def read_replacement(
     for robot in message.replace.robots:
         place = robot.position
         try:
-            slot = layout.slot(YELLOW if robot.yellowteam else BLUE, place.robot_id)
+            slot = placement.slot(YELLOW if robot.yellowteam else BLUE, place.robot_id)
             placement.put_robot(
                 slot,
                 (place.x, place.y),

@@ -141,7 +141,7 @@ def read_replacement(
     placement = Placement(layout, frame, world)
     for robot in message.replacement.robots:
         try:
-            slot = layout.slot(YELLOW if robot.yellowteam else BLUE, robot.id)
+            slot = placement.slot(YELLOW if robot.yellowteam else BLUE, robot.id)
             present = robot.turnon if robot.HasField("turnon") else True
             angle = math.radians(robot.dir)
             placement.put_robot(slot, (robot.x, robot.y), angle, present=present)

@@ -33,7 +33,11 @@ _TOLERANCE: Final = 1e-6
 
 
 def log_to_replay(
-    path: Path | str, *, time_step: float = 0.025, field: Field | str | None = None
+    path: Path | str,
+    *,
+    time_step: float = 0.025,
+    field: Field | str | None = None,
+    blue_on_positive_half: bool = False,
 ) -> Replay:
     """Return the replay of a log.
 
@@ -45,6 +49,8 @@ def log_to_replay(
         time_step: time between frames, s; a multiple of the physics tick, 0.005 s.
         field: the field, or the name of its preset; None for that of the log's geometry, or
             "ssl_a" where it has none.
+        blue_on_positive_half: whether blue's goal is at +x in a log without packets of a referee.
+            Where it has some, these tell the side.
 
     Returns:
         The replay: blue attacks +x all the time, whatever side it played on. Commands, touches and
@@ -53,12 +59,16 @@ def log_to_replay(
 
     Raises:
         FileNotFoundError: no such file.
+        TypeError: `blue_on_positive_half` is no bool.
         MessageError: the file is no log, is damaged, lasts longer than `MAX_SECONDS`, or has
             neither tracked frames nor detections.
         ValueError: `time_step` or the field are not those of a configuration.
     """
     checks.positive_number("time_step", time_step)
+    checks.boolean("blue_on_positive_half", blue_on_positive_half)
     survey = survey_log(path)
+    if survey.side is None:
+        survey.side = blue_on_positive_half
     if survey.is_cut_off:
         _LOGGER.warning("log: %s is cut off; the replay ends where it does", path)
     first = survey.first or 0.0

@@ -8,7 +8,7 @@ from rsoccer._core import MAX_PLACED_ANGULAR_VELOCITY, MAX_PLACED_HEIGHT, MAX_PL
 from rsoccer.arrays import Floats, Mask
 from rsoccer.frame import Frame
 from rsoccer.protocols.errors import Code, MessageError, Problem, Problems
-from rsoccer.protocols.layout import WireLayout
+from rsoccer.protocols.layout import TEAM_NAMES, WireLayout
 from rsoccer.spawn import set_rolling_spin
 
 
@@ -40,6 +40,7 @@ class Placement:
         self.robots: Mask = np.zeros(layout.config.n_robots, np.bool_)
         self.safely = False
         self._problems = Problems()
+        self._named: set[int] = set()
 
     @property
     def row(self) -> Floats:
@@ -59,6 +60,23 @@ class Placement:
             error: the reason.
         """
         self._problems.add(error)
+
+    def slot(self, team: int, robot_id: int) -> int:
+        """Return the index in a state row of a robot that a message names, once.
+
+        Args:
+            team: `BLUE` or `YELLOW`, on the wire.
+            robot_id: uniform number.
+
+        Raises:
+            MessageError: the team has no robot of this number, or the message has named it before.
+        """
+        slot = self._layout.slot(team, robot_id)
+        if slot in self._named:
+            name = f"{TEAM_NAMES[team]} robot {robot_id}"
+            raise MessageError(Code.DUPLICATE_ROBOT, f"id: expected {name} once, got it twice")
+        self._named.add(slot)
+        return slot
 
     def put_ball(
         self,

@@ -7,7 +7,7 @@ import math
 from collections.abc import Mapping
 from typing import Any, Final
 
-from rsoccer._core import RobotModel
+from rsoccer._core import MAX_PLACED_ANGULAR_VELOCITY, MAX_PLACED_SPEED, RobotModel
 from rsoccer.protocols.errors import Code, MessageError
 from rsoccer.protocols.schemas import simulation_pb2
 
@@ -29,6 +29,24 @@ _LIMITS: Final = {
     "acc_brake_angular_max": "max_angular_deceleration",
 }
 """The same of its limits."""
+_RANGES: Final = {
+    "radius": (0.05, 0.09),
+    "height": (0.05, 0.15),
+    "mass": (0.1, 10.0),
+    "max_linear_kick_speed": (0.0, MAX_PLACED_SPEED),
+    "max_chip_kick_speed": (0.0, MAX_PLACED_SPEED),
+    "vel_absolute_max": (0.0, MAX_PLACED_SPEED),
+    "vel_angular_max": (0.0, MAX_PLACED_ANGULAR_VELOCITY),
+}
+"""Least and greatest numbers of a robot by field of the message.
+
+The greatest size is that of the league's rules; the least one has room for a mouth and is higher
+than the ball. A robot that pushes two of 2.7 kg against the wall overlaps them by 1.3 mm with a
+mass of 10 kg, by 16 mm with 100 kg, and passes through them with 1000 kg. Speeds are those with
+which bodies can be placed.
+"""
+_ROUNDING: Final = 1e-6
+"""Share by which single precision may exceed the ends of a range: .09 on the wire is above it."""
 
 
 def to_robot_model(model: RobotModel, specs: simulation_pb2.RobotSpecs) -> RobotModel:
@@ -46,8 +64,10 @@ def to_robot_model(model: RobotModel, specs: simulation_pb2.RobotSpecs) -> Robot
     """
     numbers: dict[str, float | list[float]] = {}
     for part, names in ((specs, _NUMBERS), (specs.limits, _LIMITS)):
-        given = {field.name for field, _ in part.ListFields()}
-        numbers |= {number: getattr(part, name) for name, number in names.items() if name in given}
+        given = {field.name for field, _ in part.ListFields()} & set(names)
+        for name in sorted(given):
+            _check_range(name, getattr(part, name))
+        numbers |= {names[name]: getattr(part, name) for name in given}
     if specs.HasField("wheel_angles"):
         wheels = specs.wheel_angles
         clockwise = (wheels.front_left, wheels.back_left, wheels.back_right, wheels.front_right)
@@ -61,6 +81,15 @@ def to_robot_model(model: RobotModel, specs: simulation_pb2.RobotSpecs) -> Robot
         return RobotModel.from_json(json.dumps(data))
     except (ValueError, OverflowError) as error:
         raise MessageError(Code.INVALID_SPEC, f"robot_specs: {error}") from None
+
+
+def _check_range(name: str, value: float) -> None:
+    """Refuse a number that no robot of the league has, or with which contacts are not exact."""
+    low, high = _RANGES.get(name, (-math.inf, math.inf))
+    if not low * (1 - _ROUNDING) <= value <= high * (1 + _ROUNDING):
+        raise MessageError(
+            Code.INVALID_SPEC, f"robot_specs.{name}: expected {low:g} to {high:g}, got {value:g}"
+        )
 
 
 def _replace(data: dict[str, Any], numbers: Mapping[str, float | list[float]]) -> set[str]:

@@ -64,7 +64,7 @@ def read_command(
         ValueError: a frame of other teams, or no such world.
     """
     result = ControlResult(Placement(layout, frame, world))
-    _read_control(layout, message.control, result)
+    _read_control(message.control, result)
     _read_config(layout, message.config, result)
     return result
 
@@ -116,14 +116,12 @@ def to_command(
     return message
 
 
-def _read_control(
-    layout: WireLayout, control: simulation_pb2.Control, result: ControlResult
-) -> None:
+def _read_control(control: simulation_pb2.Control, result: ControlResult) -> None:
     placement = result.placement
     if control.HasField("teleport_ball"):
         _try(placement, partial(_teleport_ball, placement, control.teleport_ball))
     for robot in control.teleport_robot:
-        _try(placement, partial(_teleport_robot, layout, placement, robot))
+        _try(placement, partial(_teleport_robot, placement, robot))
     if control.HasField("simulation_speed"):
         speed = control.simulation_speed
         if 0.0 <= speed <= _MAX_SPEED:
@@ -151,10 +149,8 @@ def _teleport_ball(placement: Placement, ball: simulation_pb2.TeleportBall) -> N
     placement.safely |= ball.teleport_safely
 
 
-def _teleport_robot(
-    layout: WireLayout, placement: Placement, robot: simulation_pb2.TeleportRobot
-) -> None:
-    slot = _slot(layout, robot.id)
+def _teleport_robot(placement: Placement, robot: simulation_pb2.TeleportRobot) -> None:
+    slot = placement.slot(*_identity(robot.id))
     if robot.by_force:
         raise MessageError(Code.UNSUPPORTED_BY_FORCE, "by_force: expected false, got true")
     present = robot.present if robot.HasField("present") else None
@@ -190,18 +186,19 @@ def _read_config(layout: WireLayout, config: simulation_pb2.Config, result: Cont
             text = "robot_specs.custom: expected none, got some"
             placement.add(MessageError(Code.UNSUPPORTED_CUSTOM, text))
         try:
-            slot = _slot(layout, specs.id)
+            slot = layout.slot(*_identity(specs.id))
             model = result.robot_models.get(slot, layout.config.robots[slot])
             result.robot_models[slot] = to_robot_model(model, specs)
         except MessageError as error:
             placement.add(error)
 
 
-def _slot(layout: WireLayout, identity: simulation_pb2.RobotId) -> int:
+def _identity(identity: simulation_pb2.RobotId) -> tuple[int, int]:
+    """Team and uniform number of a robot."""
     team = _TEAMS.get(identity.team)
     if team is None or not identity.HasField("id"):
         raise MessageError(Code.UNKNOWN_TEAM, "id: expected a number and a team, got fewer")
-    return layout.slot(team, identity.id)
+    return team, identity.id
 
 
 def _try(placement: Placement, change: Callable[[], None]) -> None:

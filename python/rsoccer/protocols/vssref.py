@@ -191,7 +191,7 @@ def read_placement(
     placement = Placement(layout, frame, world)
     for robot in message.world.robots:
         try:
-            slot = layout.slot(team, robot.robot_id)
+            slot = placement.slot(team, robot.robot_id)
             placement.put_robot(slot, (robot.x, robot.y), math.radians(robot.orientation))
         except MessageError as error:
             placement.add(error)
