@@ -44,6 +44,13 @@ def test_a_task_without_a_trained_policy_is_played_by_a_script(
     assert [controllers["blue_0"] for _, controllers, _ in filmed] == ["scripted", "strike"]
 
 
+def test_takers_are_not_played_by_the_policy_of_keepers(filmed: list[Any]) -> None:
+    options = ["--task-options", "learners=takers"]
+    assert cli.main(["watch", "SSLKeepaway-v0", *options, "--video", "never.mp4"]) == 0
+    ((_, controllers, _),) = filmed
+    assert (controllers["blue_0"], controllers["yellow_0"]) == ("keep", "take")
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [

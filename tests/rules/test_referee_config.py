@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from rsoccer import make_task
 from rsoccer._core import Referee, SimConfig, referee_preset, referee_rules, referee_values
 from rsoccer.rules.referee_config import CHOICES, PRESETS, RefereeConfig
 
@@ -157,3 +158,12 @@ def test_every_rule_can_be_switched_off(league: str) -> None:
     for off in ([name] for name in names):
         Referee(SimConfig(field, 1, 1), RefereeConfig(preset, off=off).to_json())
     assert all(source and text.endswith(".") for _, source, text, _ in referee_rules(league))
+
+
+@pytest.mark.parametrize("name", ["preset", "self", "halfs"])
+def test_names_that_the_rules_do_not_have_are_refused_by_name(name: str) -> None:
+    values: dict[str, Any] = {name: "ssl_2026_a"}
+    with pytest.raises(ValueError, match=f"referee: expected one of .*, got '{name}'"):
+        RefereeConfig("ssl_2026_b", **values)
+    with pytest.raises(ValueError, match=f"referee: expected one of .*, got '{name}'"):
+        make_task("SSLMatch-v0", referee=values)

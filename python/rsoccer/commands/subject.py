@@ -10,7 +10,7 @@ from tyro.conf import arg
 
 from rsoccer import policies, registry
 from rsoccer.commands.task_options import named_task
-from rsoccer.lineup import DEFAULT_TASK, script_of, task_for
+from rsoccer.lineup import DEFAULT_TASK, TAKER_SCRIPT, script_of, task_for
 from rsoccer.policies import trained
 from rsoccer.policies.own_code import short_name
 from rsoccer.policies.policy_file import SUFFIX, SUFFIXES
@@ -92,10 +92,13 @@ def check_policy_names(names: Iterable[str | None]) -> None:
 
 def _default_policy(task: Task) -> str:
     """The policy that was trained on a task, or a script that plays in the place of one."""
+    script = script_of(task)
+    if script == TAKER_SCRIPT:  # the policy of keepaway has learned to keep the ball
+        return script
     try:
         trained.load_best(task)
     except ValueError:
-        return script_of(task)
+        return script
     return trained.BEST
 
 

@@ -1,12 +1,13 @@
 """Scenes: situations of a match that are played under the referee."""
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from rsoccer import _core
+from rsoccer import _core, checks
 from rsoccer._core import SimConfig, Simulator
 from rsoccer.arrays import Array, Floats
 from rsoccer.frame import Frame, robot_names
@@ -95,10 +96,12 @@ def play_scene(
         (1, 0)
     """
     rules = league if isinstance(league, RefereeConfig) else _rules(league)
-    if not seconds >= 0.0:
+    if not 0.0 <= checks.number("seconds", seconds) < math.inf:
         raise ValueError(f"seconds: expected at least 0, got {seconds}")
     if config is None:
         config = SimConfig(FIELDS[rules.preset], *team_sizes(start))
+    elif not isinstance(config, SimConfig):
+        raise TypeError(f"config: expected a SimConfig, got {config!r}")
     referee = _core.Referee(config, rules.to_json())
     played = _Played(referee, config, start)
     for step in range(round(seconds / config.time_step)):
@@ -211,9 +214,14 @@ def _commands(commands: Commands, frame: Frame, seconds: float, config: SimConfi
         for name, numbers in commands.items():
             if name not in names:
                 raise ValueError(f"commands: expected names of {names}, got {name!r}")
-            found[names.index(name)] = numbers
+            found[names.index(name)] = _numbers(f"commands[{name!r}]", numbers, shape[1:])
         return found
-    array = np.asarray(commands, np.float32)
-    if array.shape != shape:
-        raise ValueError(f"commands: expected shape {shape}, got {array.shape}")
-    return array
+    return _numbers("commands", commands, shape)
+
+
+def _numbers(name: str, value: object, shape: tuple[int, ...]) -> Floats:
+    """Finite numbers of a shape; whole ones are taken too."""
+    array = checks.as_array(name, value)
+    return checks.floats(
+        name, array.astype(np.float32) if array.dtype.kind in "iu" else array, shape
+    )

@@ -6,7 +6,9 @@ from typing import Any, Final, NoReturn
 
 import numpy as np
 
+from rsoccer import checks
 from rsoccer._core import GAME_COLUMNS, Referee, SimConfig
+from rsoccer.arrays import Array
 from rsoccer.frame import Frame, robot_names
 from rsoccer.game import BLUE, Command, Game, Stage
 
@@ -20,7 +22,7 @@ FIELDS: Final = {
 }
 """Fields of the presets."""
 
-_ROBOT: Final = re.compile(r"(blue|yellow)_(\d+)")
+_ROBOT: Final = re.compile(r"(blue|yellow)_(0|[1-9]\d*)", re.ASCII)
 _BALL: Final = ("x", "y", "v_x", "v_y", "z", "v_z")
 _BODY: Final = ("x", "y", "heading", "v_x", "v_y", "v_theta")
 _CODES: Final[dict[str, type[Command] | type[Stage]]] = {
@@ -31,6 +33,19 @@ _CODES: Final[dict[str, type[Command] | type[Stage]]] = {
 }
 _ROBOTS: Final = ("last_touch", "kick_taker", "dribbler", "pusher", "pushed")
 _OWN: Final = ("ball", "robots", "seconds_left")
+_MOST: Final = 2**24 - 1
+"""Greatest whole number of a column: a row of float32 has all up to it."""
+_LARGEST: Final = float(np.finfo(np.float32).max)
+_FLAG: Final = re.compile(r"in_play|had_|has_|first_kickoff")
+"""Columns that are 0 or 1."""
+_REAL: Final = re.compile(r"_x$|_y$|^height_since_touch|^penalty_way")
+"""Columns of places and ways; all others are whole numbers."""
+_LEAST: Final = {"stage_steps_left": -_MOST, "foul_steps": -1, "removal_steps_left": -1}
+"""Least values of groups of columns, where it is not 0: a stage may go on after its time, and -1
+is no time."""
+_TEAM: Final = re.compile(r"_(blue|yellow)$")
+_NOTHING: Final = ("next_command", "kick")
+"""Codes that may be None."""
 
 
 def robots_of(start: Mapping[str, Any]) -> Mapping[str, Any]:
@@ -80,7 +95,7 @@ def frame_of(start: Mapping[str, Any], config: SimConfig) -> Frame:
 
     Raises:
         TypeError: a body that is no sequence of numbers and no mapping.
-        ValueError: too few or too many numbers, or an unknown name.
+        ValueError: too few or too many numbers, one that is not finite, or an unknown name.
     """
     frame = Frame.empty(1, config.n_blue, config.n_yellow)
     ball = _numbers("ball", start.get("ball", (0.0, 0.0)), _BALL)
@@ -92,6 +107,8 @@ def frame_of(start: Mapping[str, Any], config: SimConfig) -> Frame:
     robots.heading[0, :, 0] = 1.0
     names = robot_names(config.n_blue, config.n_yellow)
     for name, given in robots_of(start).items():
+        if name not in names:
+            raise ValueError(f"start['robots']: expected names of {names}, got {name!r}")
         body = _numbers(f"robots[{name!r}]", given, _BODY)
         index = names.index(name)
         robots.absent[0, index] = 0.0
@@ -135,7 +152,11 @@ def game_of(start: Mapping[str, Any], config: SimConfig, time_step: float) -> Ga
         values.setdefault("kick_position", place)
     if values.get("last_touch") is not None:
         values.setdefault("last_touch_position", place)
-    values.setdefault("stage_steps_left", round(float(values.pop("seconds_left")) / time_step))
+    most = _MOST * time_step
+    seconds = checks.number_in_range(
+        "start['seconds_left']", values.pop("seconds_left"), -most, most
+    )
+    values.setdefault("stage_steps_left", round(seconds / time_step))
     for name, value in values.items():
         _set(game, name, value, names)
     return game
@@ -150,47 +171,70 @@ def _set(game: Game, name: str, value: Any, names: Sequence[str]) -> None:  # no
         if value is not None and value not in names:
             raise ValueError(f"start[{name!r}]: expected one of {tuple(names)}, got {value!r}")
         value = -1 if value is None else names.index(value)
-    try:
-        columns = getattr(game, name)
-    except AttributeError:
+    if not isinstance(name, str) or name in game or not hasattr(game, name):
         _unknown(name)
-    if columns.base is None and name not in GAME_COLUMNS:
+    columns = getattr(game, name)
+    if not isinstance(columns, np.ndarray):
         _unknown(name)
+    numbers = _columns(name, value, columns[0].shape)
+    columns[0] = numbers
+
+
+def _columns(name: str, value: object, shape: tuple[int, ...]) -> Array:
+    """Numbers of a column or a group of columns, as the core reads them."""
     try:
-        columns[0] = np.asarray(value, np.float32).reshape(np.shape(columns[0]))
+        numbers = np.asarray(value, np.float64).reshape(shape)
     except (TypeError, ValueError):
-        shape = np.shape(columns[0])
         raise ValueError(
             f"start[{name!r}]: expected numbers of shape {shape}, got {value!r}"
         ) from None
+    if not (np.abs(numbers) <= _LARGEST).all():  # refuses NaN too
+        raise ValueError(f"start[{name!r}]: expected finite numbers, got {value!r}")
+    group = next(each for each in GAME_COLUMNS if each.startswith(name))
+    if _REAL.search(group):
+        return numbers
+    least = _LEAST.get(_TEAM.sub("", group), -1 if name in _ROBOTS else 0)
+    most = 1 if _FLAG.match(group) else _MOST
+    if (numbers != np.rint(numbers)).any() or (numbers < least).any() or (numbers > most).any():
+        expected = f"whole numbers from {least} to {most}"
+        raise ValueError(f"start[{name!r}]: expected {expected}, got {value!r}")
+    return numbers
 
 
-def _unknown(name: str) -> NoReturn:
+def _unknown(name: object) -> NoReturn:
     known = ", ".join([*_OWN, *GAME_COLUMNS])
     raise ValueError(f"start: expected names of {known}, got {name!r}")
 
 
 def _code(name: str, value: object, kind: type[Command] | type[Stage]) -> int:
-    """Number of a command or a stage; -1 for None."""
-    if value is None:
+    """Number of a command or a stage; -1 for None where there may be none."""
+    if value is None and name in _NOTHING:
         return -1
     if isinstance(value, str) and value in kind.__members__:
         return int(kind[value])
-    if isinstance(value, int) and value in [int(member) for member in kind]:
+    if (
+        isinstance(value, int)
+        and not isinstance(value, bool)
+        and value in [int(member) for member in kind]
+    ):
         return int(value)
     raise ValueError(f"start[{name!r}]: expected one of {list(kind.__members__)}, got {value!r}")
 
 
 def _numbers(name: str, given: object, names: Sequence[str]) -> dict[str, float]:
     """Numbers of a body by name; those that are not given are 0."""
-    numbers = dict.fromkeys(names, 0.0)
     if isinstance(given, Mapping):
-        unknown = set(given) - set(names)
+        unknown = [key for key in given if key not in names]
         if unknown:
-            raise ValueError(f"start: {name}: expected names of {names}, got {sorted(unknown)}")
-        return numbers | {key: float(value) for key, value in given.items()}
-    if not isinstance(given, Sequence | np.ndarray) or isinstance(given, str):
+            raise ValueError(f"start: {name}: expected names of {names}, got {unknown}")
+        found = dict(given)
+    elif not isinstance(given, Sequence | np.ndarray) or isinstance(given, str):
         raise TypeError(f"start: {name}: expected numbers {names}, got {given!r}")
-    if not 2 <= len(given) <= len(names):
+    elif not 2 <= len(given) <= len(names):
         raise ValueError(f"start: {name}: expected 2 to {len(names)} of {names}, got {given!r}")
-    return numbers | {key: float(value) for key, value in zip(names, given, strict=False)}
+    else:
+        found = dict(zip(names, given, strict=False))
+    return dict.fromkeys(names, 0.0) | {
+        key: checks.number_in_range(f"start: {name}: {key}", value, -_LARGEST, _LARGEST)
+        for key, value in found.items()
+    }

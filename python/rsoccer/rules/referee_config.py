@@ -58,7 +58,7 @@ class RefereeConfig(Mapping[str, Any]):
         1.0
     """
 
-    def __init__(self, preset: str, **values: Any) -> None:  # noqa: ANN401  (checked here)
+    def __init__(self, preset: str, /, **values: Any) -> None:  # noqa: ANN401  (checked here)
         """Take a preset, and replace some of its values.
 
         Args:

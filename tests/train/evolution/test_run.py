@@ -63,6 +63,48 @@ def test_a_run_that_is_older_than_a_setting_goes_on(tmp_path: Path) -> None:
     assert len(rows(tmp_path / "run")) == 2
 
 
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        (None, "damaged or not the state of an evolution"),
+        ([], "damaged or not the state of an evolution"),
+        ({}, "damaged or not the state of an evolution: 'generation'"),
+        ({"settings": []}, "damaged or not the state of an evolution"),
+        ({"policy_files": {"zero": "1"}}, "other policies of the same names"),
+        ({"generation": "x"}, "generation: expected a whole number, got 'x'"),
+        ({"generation": -1}, "generation: expected at least 0, got -1"),
+        ({"mean": "x"}, "damaged or not the state of an evolution"),
+        ({"mean": [1.0]}, "mean: expected [0-9]+ finite numbers, those of scripted, got \\[1.0\\]"),
+        ({"step": [float("nan")] * 65}, "step: expected [0-9]+ finite numbers"),
+    ],
+)
+def test_states_that_are_damaged_are_refused_by_the_name_of_the_file(
+    changes: Any,  # noqa: ANN401  (JSON)
+    message: str,
+    tmp_path: Path,
+) -> None:
+    evolve(args(tmp_path / "run", generations=1))
+    path = tmp_path / "run" / run.STATE_FILE
+    saved = {**json.loads(path.read_text()), **changes} if changes else changes
+    for text in [json.dumps(saved), ""] if changes is None else [json.dumps(saved)]:
+        path.write_text(text)
+        with pytest.raises(ValueError, match=f"resume: .*{run.STATE_FILE}.* {message}"):
+            evolve(args(tmp_path / "run", resume=True))
+
+
+def test_a_run_that_is_killed_before_its_first_generation_can_resume(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def killed(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patched, pytest.raises(KeyboardInterrupt):
+        patched.setattr(Evolved, "save", killed)
+        evolve(args(tmp_path / "run"))
+    evolve(args(tmp_path / "run", resume=True))
+    assert len(rows(tmp_path / "run")) == 2
+
+
 def test_a_run_that_goes_on_is_the_same_as_one_without_a_stop(tmp_path: Path) -> None:
     whole = evolve(args(tmp_path / "whole", step_size=20.0, opponents=("scripted:0.3",)))
     parts = args(tmp_path / "parts", step_size=20.0, opponents=("scripted:0.3",), generations=1)
@@ -156,7 +198,7 @@ def test_wrong_settings_are_refused_before_anything_changes(tmp_path: Path) -> N
     with pytest.raises(ValueError, match=r"out: .* holds a run \(progress.csv\)"):
         evolve(args(tmp_path / "train"))
     evolve(args(out, generations=1))
-    with pytest.raises(ValueError, match=r"out: .* holds a run"):
+    with pytest.raises(ValueError, match=r"out: .* holds a run .*; set resume, or another folder"):
         evolve(args(out))
     with pytest.raises(ValueError, match="other settings: seed was 0, is 1"):
         evolve(args(out, resume=True, seed=1))

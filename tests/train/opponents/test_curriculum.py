@@ -19,9 +19,13 @@ from tests.train.one_update import one_update
 from tests.train.short_task import tiny
 
 
-def curriculum(task: str, **settings: Any) -> Curriculum:  # noqa: ANN401  (any field)
-    made = OpponentSettings(**settings)
-    return Curriculum(made, make_task(task), Clock(), worlds=40, threads=1, action_repeat=3)
+def curriculum(
+    task: str,
+    options: dict[str, Any] | None = None,
+    **settings: Any,  # noqa: ANN401  (any field)
+) -> Curriculum:
+    made, played = OpponentSettings(**settings), make_task(task, **(options or {}))
+    return Curriculum(made, played, Clock(), worlds=40, threads=1, action_repeat=3)
 
 
 def test_a_task_keeps_its_own_policies_by_default() -> None:
@@ -92,6 +96,18 @@ def test_policies_without_robots_or_matches_are_refused(
 ) -> None:
     with pytest.raises(ValueError, match=message):
         curriculum(task, **settings)
+
+
+def test_a_team_with_another_part_is_not_played_by_the_learners_selves() -> None:
+    # Formerly the keepers' own policy played the takers, whose part it never learns.
+    with pytest.raises(
+        ValueError, match=r"expected 0, .* SSLKeepaway-v0, got 0\.5 and 0\.35: let one"
+    ):
+        curriculum("SSLKeepaway-v0", {"learners": "both"})
+    fixed: dict[str, Any] = {"fixed": {"take": 1}, "latest_fraction": 0, "past_fraction": 0}
+    mixed = curriculum("SSLKeepaway-v0", {"learners": "both"}, **fixed)
+    assert mixed.learners == ("blue_0", "blue_1", "blue_2")
+    assert mixed.kinds == ("ou", "take", "latest", "past")
 
 
 def test_episodes_are_logged_by_opponent(tmp_path: Path) -> None:

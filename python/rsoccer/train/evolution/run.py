@@ -6,11 +6,13 @@ import itertools
 import json
 import sys
 import time
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
 
+from rsoccer import checks
 from rsoccer.arrays import Doubles, Floats
 from rsoccer.evaluate.episodes import EpisodeRunner
 from rsoccer.files import write_atomically
@@ -67,12 +69,12 @@ def run_evolution(args: EvolveArgs) -> Path:
         if args.resume:
             done = _resume(args, strategy, policy_files)
         else:
-            check_empty(args.out)
+            check_empty(args.out, "resume")
+            _keep(args, strategy, 0, policy_files)  # first: a run that is killed here can resume
             policy.save(path)
             write_atomically(
                 args.out / SETTINGS_FILE, json.dumps(args.to_json(), indent=2).encode()
             )
-            _keep(args, strategy, 0, policy_files)
         _trim_log(args.out, done)
         for generation in range(done, args.generations):
             start = time.monotonic()
@@ -153,9 +155,9 @@ def _first(args: EvolveArgs, task: Task) -> Floats | None:
 def _resume(args: EvolveArgs, strategy: Strategy, policy_files: dict[str, str]) -> int:
     """Bring the strategy to where the run in the folder is. Return the generations so far."""
     path = args.out / STATE_FILE
-    saved = json.loads(path.read_text())
+    saved = _read_state(path)
     now = args.to_json()
-    before = {**EvolveArgs(args.task).to_json(), **saved["settings"]}  # some may be newer than it
+    before = {**EvolveArgs(args.task).to_json(), **saved.settings}  # some may be newer than it
     changed = [
         f"{name} was {before[name]!r}, is {now[name]!r}"
         for name in now
@@ -163,10 +165,44 @@ def _resume(args: EvolveArgs, strategy: Strategy, policy_files: dict[str, str]) 
     ]
     if changed:
         raise ValueError(f"resume: {path} is of a run with other settings: {'; '.join(changed)}")
-    if saved["policy_files"] != policy_files:
+    if saved.policy_files != policy_files:
         raise ValueError(f"resume: {path} is of a run with other policies of the same names")
-    strategy.mean, strategy.step = np.array(saved["mean"]), np.array(saved["step"])
-    return int(saved["generation"])
+    for name, numbers in (("mean", saved.mean), ("step", saved.step)):
+        if numbers.shape != strategy.mean.shape or not np.isfinite(numbers).all():
+            raise ValueError(
+                f"resume: {path}: {name}: expected {len(strategy.mean)} finite numbers, those of "
+                f"{args.script}, got {numbers.tolist()}"
+            )
+    strategy.mean, strategy.step = saved.mean, saved.step
+    return saved.generation
+
+
+@dataclass(frozen=True)
+class _State:
+    """State of a run in its folder."""
+
+    generation: int
+    mean: Doubles
+    step: Doubles
+    settings: dict[str, Any]
+    policy_files: Any
+
+
+def _read_state(path: Path) -> _State:
+    """Read the state of a run; an error names the file."""
+    try:
+        saved = json.loads(path.read_bytes())
+        return _State(
+            checks.integer("generation", saved["generation"], 0),
+            np.array(saved["mean"], np.float64),
+            np.array(saved["step"], np.float64),
+            {**saved["settings"]},
+            saved["policy_files"],
+        )
+    except (KeyError, TypeError, ValueError) as error:
+        raise ValueError(
+            f"resume: {path} is damaged or not the state of an evolution: {error}"
+        ) from error
 
 
 def _keep(

@@ -65,7 +65,8 @@ class Curriculum:
 
         Raises:
             ValueError: a task without learners, opponents in a task without such robots, a policy
-                that does not fit the task, or opponents in a run that leaves no matches for them.
+                that does not fit the task, opponents in a run that leaves no matches for them, or
+                selves as opponents in a task whose teams have different parts.
         """
         self._settings, self._task, self._clock = settings, task, clock
         self._worlds, self._threads = worlds, threads
@@ -85,6 +86,12 @@ class Curriculum:
         """Opponents in a task in which both teams learn."""
         settings = self._settings
         selves = (settings.latest_fraction, settings.past_fraction)
+        if any(selves) and not self._task.two_sided:  # nobody would learn the part of the others
+            raise ValueError(
+                "opponents.latest_fraction: expected 0, and past_fraction 0, as yellow cannot play "
+                f"blue's part in {self._task.name}, got {selves[0]:g} and {selves[1]:g}: let one "
+                "team learn"
+            )
         if settings.fixed and sum(selves) > 1.0 - 1e-6:
             raise ValueError(
                 "opponents.fixed: expected none where latest_fraction + past_fraction is 1, "

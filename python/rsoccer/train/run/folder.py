@@ -120,11 +120,12 @@ def _check_same(args: Args, policy_files: dict[str, str], path: Path, info: dict
         )
 
 
-def check_empty(folder: Path) -> None:
+def check_empty(folder: Path, settings: str = "resume, overwrite") -> None:
     """Refuse a folder that has files of a run, even of one without a checkpoint.
 
     Args:
         folder: the folder.
+        settings: settings with which a run may have such a folder, for the error.
 
     Raises:
         ValueError: it has.
@@ -132,8 +133,7 @@ def check_empty(folder: Path) -> None:
     names = (checkpoint.FILE_NAME, POLICY_FILE, SETTINGS_FILE, LOG_FILE)
     if found := [name for name in names if (folder / name).exists()]:
         raise ValueError(
-            f"out: {folder} holds a run ({', '.join(found)}); set resume, overwrite, or another "
-            "folder"
+            f"out: {folder} holds a run ({', '.join(found)}); set {settings}, or another folder"
         )
 
 
