@@ -232,7 +232,7 @@ def test_a_controller_in_si_units_may_act_by_the_observations_of_its_robots() ->
 
 
 class Intruder(CommandPolicy):
-    """Tries to write all that it is shown, in both of its calls."""
+    """Tries to write all that it is shown but its own observations, in both of its calls."""
 
     observes = "observation"
     refusals: ClassVar[list[str]] = []
@@ -247,7 +247,6 @@ class Intruder(CommandPolicy):
             "robots": match.robots,
             "ball": view.ball.data,
             "slots": view.robots.data,
-            "observations": inputs.observations,
             "playing": playing,
         }
         for name, array in shown.items():
@@ -276,7 +275,7 @@ def test_policies_cannot_write_the_state_of_matches(sensing: str | None) -> None
     matches.reset(seed=0)
     Intruder.refusals.clear()
     matches.step(zeros(matches))
-    assert len(Intruder.refusals) == 2 * 6, "of all but `playing`, in both calls"
+    assert len(Intruder.refusals) == 2 * 5, "of all but `playing`, in both calls"
     matches.reset(mask=np.array([True, False]))
     matches.step(zeros(matches))
     matches.step(zeros(matches))

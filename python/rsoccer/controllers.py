@@ -117,7 +117,6 @@ class PolicyGroup:
             match = MatchState(known.rows, game, self._shown, threads, config, playing)
         if self.policy.observes == "observation":
             observed = observations[:, self.observer_indices]
-            observed.flags.writeable = False  # a slice shares the memory of the matches
         return PolicyInput(shape, view, observed, self.optional_actions, match)
 
     def restart(self, worlds: NDArray[np.intp], rng: WorldRng, action_size: int) -> None:

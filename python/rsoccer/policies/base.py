@@ -53,8 +53,8 @@ class MatchState:
 class PolicyInput:
     """Input of one policy step, for the robots that the policy drives, in order.
 
-    The arrays are valid during the call: the next step overwrites them. Those that share memory
-    with the matches cannot be written.
+    The arrays are valid during the call: the next step overwrites them. Only
+    `observations` can be written, as nobody else reads those of the policy's robots.
     """
 
     action_shape: tuple[int, int, int]
