@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from rsoccer import LEARN, CommandPolicy, Matches, Policy
-from rsoccer.arrays import Floats
+from rsoccer.arrays import Array, Floats
 from rsoccer.controllers import Controllers
 from rsoccer.evaluate import evaluate
 from rsoccer.policies.base import Memory, PolicyInput
@@ -238,16 +238,16 @@ class Intruder(CommandPolicy):
     refusals: ClassVar[list[str]] = []
 
     def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
-        match, view, playing = inputs.match, inputs.view, inputs.match and inputs.match.playing
+        match, view = inputs.match, inputs.view
         assert match is not None
         assert view is not None
-        shown = {
+        shown: dict[str, Array | None] = {
             "rows": match.rows,
             "score": match.game.score,
             "robots": match.robots,
             "ball": view.ball.data,
             "slots": view.robots.data,
-            "playing": playing,
+            "playing": match.playing,
         }
         for name, array in shown.items():
             if array is not None:

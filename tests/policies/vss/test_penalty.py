@@ -97,7 +97,7 @@ def test_one_robot_kicks_and_one_keeper_waits_until_the_ball_has_moved() -> None
 def test_the_kick_goes_into_the_corner_away_from_the_keeper(y: float) -> None:
     matches = Matches(TASK)
     matches.reset()
-    view = matches.play.view
+    view = matches.play.view.take(np.array([0]))
     view.opponents.position[..., 1] = y
     stage = np.zeros((1, 6), np.int8)
     kicking = np.array([[False, True, False, False, False, False]])
