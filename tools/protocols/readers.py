@@ -197,10 +197,11 @@ def bases(kind: type[Message], count: int = 8) -> Iterator[Message]:
 
 
 def _put_specs(message: simulation_pb2.Command) -> None:
-    """Replace the random robots in a message by ones that can exist."""
+    """Replace the random robots in a message by ones that can exist, also if they grow somewhat."""
+    model = RobotModel("ssl_generic", radius=0.08, max_speed=3.0)
     for specs in message.config.robot_specs:
         identity = simulation_pb2.RobotId(id=1, team=simulation_pb2.YELLOW)
-        specs.CopyFrom(to_robot_specs(RobotModel("ssl_generic", max_speed=3.0), identity))
+        specs.CopyFrom(to_robot_specs(model, identity))
         specs.custom.add(type_url="a")
 
 
