@@ -7,13 +7,14 @@ import numpy as np
 import pytest
 
 from rsoccer import Matches
+from rsoccer._core import GAME_COLUMNS
 from rsoccer.arrays import Array
 from rsoccer.frame import Frame
 from rsoccer.game import BLUE, NOBODY, EventKind
 from rsoccer.new_play import new_play, new_viewpoint
 from rsoccer.rng import WorldRng
-from rsoccer.rules import Passes
-from rsoccer.tasks import SslSelfPlay
+from rsoccer.rules import Passes, PassesInPlay
+from rsoccer.tasks import SslMatch, SslSelfPlay
 from tests.tasks.ssl_scenes import DRIBBLE, KICK, STAND, scene
 
 TASK = SslSelfPlay()
@@ -232,6 +233,32 @@ def test_a_ball_that_a_restart_has_placed_arrives_from_nobody() -> None:
     kicked, arrived = (0.0, 3.0, 0, NOBODY), (0.55, 3.0, NOBODY, 1)
     assert passes_of(kicked, RESTART, arrived) == [0, 0]
     assert passes_of(kicked, arrived) == [1, 0], "without the restart it is a pass"
+
+
+@pytest.mark.parametrize(
+    ("in_play", "command_steps", "expected"),
+    [(1.0, 40.0, 1), (0.0, 0.0, 1), (0.0, 1.0, 0), (0.0, 40.0, 0)],
+    ids=["in play", "the step that stops play", "a step later", "in a stop"],
+)
+def test_no_pass_arrives_while_play_is_stopped(
+    in_play: float, command_steps: float, expected: int
+) -> None:
+    """Formerly a ball that rolled on in a stop, or that robots placed, was passed."""
+    task = SslMatch(placement="robots")
+    play = new_play(task, 1, new_viewpoint(task, [0]), WorldRng.seeded(0, 1))
+    frame = Frame.empty(1, task.n_blue, task.n_yellow)
+    frame.robots.position[0, :, 0] = 0.6 * np.arange(12)
+    play.start(frame.rows)
+    rule, ball = task.rules[1], play.frame.ball
+    assert isinstance(rule, PassesInPlay)
+    rule.begin(play, np.arange(1))
+    columns = [GAME_COLUMNS.index(name) for name in ("in_play", "command_steps")]
+    for x, beams, state in ((0.0, NOBODY, (1.0, 39.0)), (0.5, 1, (in_play, command_steps))):
+        ball.position[0, 0], ball.velocity[0, 0], ball.last_touch[0] = x, 3.0, 0
+        play.frame.robots.infrared[0] = np.arange(12) == beams
+        play.game.referee[0, columns] = state
+        assert rule.judge(play) is None
+    assert play.game.passes.tolist() == [[expected, 0]]
 
 
 def test_a_derived_task_with_memory_of_its_own_counts_passes() -> None:

@@ -12,7 +12,8 @@ from rsoccer.rules.ball_out import BallOut
 from rsoccer.rules.base import Restart, Rule
 from rsoccer.rules.crossings import Crossings
 from rsoccer.rules.free_ball import FreeBalls
-from rsoccer.rules.passes import Passes
+from rsoccer.rules.passes import Passes, PassesInPlay
 from rsoccer.rules.possession import Possession
 
-__all__ = ["BallOut", "Crossings", "FreeBalls", "Passes", "Possession", "Restart", "Rule"]
+__all__ = ["BallOut", "Crossings", "FreeBalls", "Passes", "PassesInPlay", "Possession"]
+__all__ += ["Restart", "Rule"]

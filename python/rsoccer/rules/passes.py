@@ -110,6 +110,20 @@ class Passes(Rule):
         return begins
 
 
+class PassesInPlay(Passes):
+    """Passes of matches under a referee: none arrives while play is stopped.
+
+    A ball that arrives in the step that stops play has been a pass.
+    """
+
+    def judge(self, play: Play) -> Restart | None:
+        """Count the passes that arrived in play, and follow the ball."""
+        game = play.game
+        stopped = (game.in_play == 0.0) & (game.command_steps > 0.0)
+        game.touched_by[stopped] = NOBODY
+        return super().judge(play)
+
+
 def _squared(vectors: Floats) -> Floats:
     """(n,) squared lengths of vectors (n, 2)."""
     x, y = vectors[:, 0], vectors[:, 1]

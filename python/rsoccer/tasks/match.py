@@ -16,7 +16,7 @@ from rsoccer.frame import Frame
 from rsoccer.game import EventKind, Stage
 from rsoccer.reflection import Reflection, Symmetry
 from rsoccer.rng import WorldRng
-from rsoccer.rules import Passes, Rule
+from rsoccer.rules import PassesInPlay, Rule
 from rsoccer.rules.referee import PLACEMENT_SEEDS, RefereeRule
 from rsoccer.rules.referee_config import RefereeConfig
 from rsoccer.task import Play
@@ -70,9 +70,9 @@ class Match(Soccer):
 
     Termination: the end of the match. Truncation: after `max_steps`.
 
-    Metrics: `goal_score`, goals of blue less those of yellow; `blue_goals`, goals of
-    blue; `yellow_goals`, those of yellow; `blue_shots`, balls that leave a robot of blue toward the
-    mouth of the goal; `yellow_shots`, those of yellow; `blue_passes`, passes of blue that arrive;
+    Metrics: `goal_score`, goals of blue less those of yellow; `blue_goals`, goals of blue;
+    `yellow_goals`, those of yellow; `blue_shots`, balls that leave a robot of blue toward the mouth
+    of the goal; `yellow_shots`, those of yellow; `blue_passes`, passes of blue that arrive in play;
     `yellow_passes`, those of yellow; `blue_possession`, share of the time in play in which blue
     touched the ball last; `yellow_possession`, that of yellow; `blue_distance`, way of all robots
     of blue, m; `yellow_distance`, that of yellow; `blue_fouls`, fouls of blue; `yellow_fouls`,
@@ -152,8 +152,8 @@ class Match(Soccer):
 
     @cached_property
     def rules(self) -> Sequence[Rule]:
-        """The referee, and the definition of a pass."""
-        return self._referee, Passes(self.min_pass_length)
+        """The referee, and the definition of a pass in play."""
+        return self._referee, PassesInPlay(self.min_pass_length)
 
     @property
     @abstractmethod
