@@ -58,7 +58,7 @@ class Workers:
             _work(left, 0)
         finally:
             left.clear()
-            # A thread that has not begun has nothing left to do. On a busy machine it may wake late.
+            # A thread that has not begun has no job left. On a busy machine it may wake late.
             errors = [future.exception() for future in futures if not future.cancel()]
         for error in filter(None, errors):
             raise error
