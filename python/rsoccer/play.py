@@ -109,7 +109,7 @@ class Play:
                 "robots: expected robots of one team, because teams know different states, "
                 f"got {robots.tolist()}"
             )
-        return self.known_to(int(are_yellow[0])).read_only
+        return self.known_to(int(are_yellow[0]))
 
     @property
     def teams_differ(self) -> bool:
