@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from rsoccer import checks, task_checks
 from rsoccer._core import SimConfig
-from rsoccer.arrays import Array, Floats, Mask, read_only
+from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.frame import team_of
 from rsoccer.policies import make_policy
 from rsoccer.policies.base import (
@@ -57,7 +57,6 @@ class PolicyGroup:
     def __post_init__(self) -> None:
         """Find a slice of the robots, which is faster than indices."""
         self._written = _slice_if_possible(self.robots)
-        self._shown = read_only(self.robots)
 
     def act(
         self, play: Play, observations: Floats, actions: Floats, playing: Mask | None = None
@@ -112,9 +111,7 @@ class PolicyGroup:
         view = observed = match = None
         if self.policy.observes != "nothing":
             view = play.sensed_view.select(self.observer_indices)
-            known = play.known_to_robots(self.robots)
-            game, threads, config = play.game.read_only, play.threads, self.config
-            match = MatchState(known.rows, game, self._shown, threads, config, playing)
+            match = MatchState.of(play, self.robots, self.config, playing)
         if self.policy.observes == "observation":
             observed = observations[:, self.observer_indices]
         return PolicyInput(shape, view, observed, self.optional_actions, match)

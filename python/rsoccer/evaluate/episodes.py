@@ -299,12 +299,7 @@ class LearnerPolicy:
                 robots = robots[team.agents]
                 indices = np.searchsorted(assignment.observers, robots)
             view = play.sensed_view.select(indices)
-            known = play.known_to_robots(robots)
-            config = self._matches.task.config
-            playing = ~self._matches.done
-            match = MatchState(
-                known.rows, play.game.read_only, robots, play.threads, config, playing
-            )
+            match = MatchState.of(play, robots, self._matches.task.config, ~self._matches.done)
         if self._policy.observes == "observation":
             own = observations if is_whole else observations[:, team.agents]
         optional = self._matches.task.optional_action_size

@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 
 from rsoccer import checks
 from rsoccer._core import SimConfig, Threads
-from rsoccer.arrays import Array, Floats, Mask
+from rsoccer.arrays import Array, Floats, Mask, read_only
 from rsoccer.game import Game
+from rsoccer.play import Play
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 from rsoccer.view import View
@@ -38,6 +39,26 @@ class MatchState:
     """Field, ball and robots."""
     playing: Mask | None = None
     """(n,) worlds that play on, where others have ended and ignore actions; None for all."""
+
+    @classmethod
+    def of(
+        cls,
+        play: Play,
+        robots: NDArray[np.intp],
+        config: SimConfig,
+        playing: Mask | None = None,
+    ) -> "MatchState":
+        """Return the match as some robots know it, in arrays that cannot be written.
+
+        Args:
+            play: state of n worlds.
+            robots: (k,) indices of the robots in the order of a state row; of one team where teams
+                know different states.
+            config: field, ball and robots.
+            playing: (n,) worlds that play on, which nobody else reads; None for all.
+        """
+        rows = play.known_to_robots(robots).rows
+        return cls(rows, play.game.read_only, read_only(robots), play.threads, config, playing)
 
     def take(self, worlds: NDArray[np.intp]) -> "MatchState":
         """Return a copy of some worlds.

@@ -123,10 +123,7 @@ def shielded(matches: Matches, actions: Floats, shield: Shield | None) -> Floats
     learners = matches.assignment.learners
     for team in (learners < config.n_blue, learners >= config.n_blue):  # each has its own senses
         if team.any():
-            robots = learners[team]
-            known = play.known_to_robots(robots)
             part = shielded[:, team]
-            game = play.game.read_only
-            shield.apply(MatchState(known.rows, game, robots, play.threads, config), part)
+            shield.apply(MatchState.of(play, learners[team], config), part)
             shielded[:, team] = part
     return shielded
