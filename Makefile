@@ -29,7 +29,7 @@ ifneq ($(MAKELEVEL),0)
 unexport MAKEFLAGS MFLAGS
 endif
 
-.PHONY: help venv demo test check-format check-lint lint-rust lint-python check-rust check-python check-site check-libraries check-rllib check-lowest check-recipes check-installs wheels check-aarch64 wasm playground check-wasm format docs site physics golden soak agreement coverage bench compare clean
+.PHONY: help venv demo test check-format check-lint lint-rust lint-python check-rust check-python check-site check-libraries check-rllib check-lowest check-recipes check-installs profiled wheels check-aarch64 wasm playground check-wasm format docs site physics golden soak agreement coverage bench compare clean
 .DEFAULT_GOAL := help
 
 help: ## list all targets
@@ -101,6 +101,10 @@ check-recipes: $(RECIPES)/benchmarl/made $(RECIPES)/pufferlib/made $(RECIPES)/ti
 
 check-installs: $(VENV)/built ## run every documented install line and its program, each in an empty environment (many minutes)
 	$(BIN)/python -m tools.check_installs
+
+# In a folder of its own: other flags of the compiler would compile everything in the usual one again, too.
+profiled: $(VENV)/built ## build the compiled module again by a profile of usual play, as in wheels (5 minutes)
+	CARGO_TARGET_DIR=target/profiled PATH="$(CURDIR)/$(BIN):$$PATH" maturin develop --pgo --locked --skip-install
 
 ARCHITECTURES ?= x86_64
 wheels: $(WHEELS)/made ## build the source distribution and wheels (ARCHITECTURES="x86_64 aarch64"), and try them without a compiler

@@ -1,10 +1,11 @@
 """Speed of a step before and after: `python -m benches.comparison COMMIT`.
 
 It builds the package of an earlier commit in `out/comparison`, and steps both versions with the
-same actions in turns of some milliseconds: `Matches` of every task with 1, 64 and 512 worlds, and
-the environments of one world. Turns are measured in processor time, and a ratio is taken of two
-neighboring ones, so that other load of the machine affects both versions alike. The extension of
-the working tree has to be built: `make compare BEFORE=COMMIT` builds it.
+same actions in turns of some milliseconds: `Matches` of every task with 1, 64 and 512 worlds, the
+environments of one world, and `Simulator` in the scenes of `benches.scenarios`. Turns are measured
+in processor time, and a ratio is taken of two neighboring ones, so that other load of the machine
+affects both versions alike. The extension of the working tree has to be built: `make compare
+BEFORE=COMMIT` builds it, and before that `make profiled` as wheels have it.
 """
 
 import argparse
@@ -26,22 +27,25 @@ from typing import Any, Final, Self
 import rsoccer
 from benches.markdown import table
 from benches.result_files import ROOT
+from benches.scenarios import SCENARIOS
 
 FOLDER: Final = ROOT / "out" / "comparison"
 WORKER: Final = Path(__file__).with_name("comparison_worker.py")
 WORLDS: Final = (1, 64, 512)
+SIMULATED: Final = 256
+"""Number of worlds of a `Simulator`."""
 TURN: Final = 0.05  # s
 WARM_UP: Final = 20  # turns
 
 
 @dataclass(frozen=True)
 class Case:
-    """An interface to a task with a number of worlds."""
+    """An interface to a task or a scene with a number of worlds."""
 
     interface: str
-    """`Matches`, or the name of a function that makes an environment."""
+    """`Matches`, `Simulator`, or the name of a function that makes an environment."""
     task: str
-    """Name of the task."""
+    """Name of the task, or of the scene of a `Simulator`."""
     worlds: int
     """Number of worlds."""
 
@@ -81,7 +85,8 @@ class Stepper:
             package: The folder that contains `rsoccer`.
             case: What to step.
         """
-        paths = {"PYTHONPATH": str(package), "PYTHONSAFEPATH": "1"}
+        # The scenes are those of this checkout, for both versions.
+        paths = {"PYTHONPATH": f"{package}{os.pathsep}{ROOT}", "PYTHONSAFEPATH": "1"}
         self._process = subprocess.Popen(
             [sys.executable, WORKER, case.interface, case.task, str(case.worlds)],
             stdin=subprocess.PIPE,
@@ -141,7 +146,14 @@ def main(arguments: list[str] | None = None) -> None:
     for case in selected:
         sys.stderr.write(f"{case.title}\n")
         rows.append(row(case, *compare(before, now, case, options.rounds)))
-    header = ("interface", "task", "worlds", "before, us", "now, us", "speed, now / before")
+    header = (
+        "interface",
+        "task or scene",
+        "worlds",
+        "before, us",
+        "now, us",
+        "speed, now / before",
+    )
     sys.stdout.write(table(header, rows) + "\n")
 
 
@@ -184,6 +196,8 @@ def cases(before: Path) -> Iterator[Case]:
         one = len(rsoccer.make_task(task).agents) == 1
         for interface in ("single_env",) if one else ("parallel_env", "env"):
             yield Case(interface, task, 1)
+    for scenario in SCENARIOS:
+        yield Case("Simulator", scenario.name, SIMULATED)
 
 
 def compare(before: Path, now: Path, case: Case, rounds: int) -> tuple[list[float], list[float]]:

@@ -2,9 +2,10 @@
 
     python comparison_worker.py INTERFACE TASK WORLDS
 
-It imports nothing of `benches`, and only what all versions of the package have: the version is the
-one that `PYTHONPATH` names. Each line of the input is a number of steps; the answer is the time
-that they took in this process, in seconds. The file of the imported package comes first.
+It imports only what all versions of the package have, and of `benches` what needs no more: the
+version is the one that comes first in `PYTHONPATH`. Each line of the input is a number of steps;
+the answer is the time that they took in this process, in seconds. The file of the imported package
+comes first.
 """
 
 import json
@@ -17,6 +18,8 @@ from typing import Any, Final
 import numpy as np
 
 import rsoccer
+from benches.scenarios import SCENARIOS, Driver
+from benches.simulators import SimulatorAdapter
 
 HELD: Final = 10  # steps with the same actions
 ACTIONS: Final = 16  # different random actions, drawn in advance so as not to be measured
@@ -51,6 +54,8 @@ def stepper(interface: str, task: str, worlds: int) -> Step:
     """Return a function that makes a step with random actions, and resets what has ended."""
     if interface == "Matches":
         return matches(task, worlds)
+    if interface == "Simulator":
+        return physics(task, worlds)
     env: Any = getattr(rsoccer, interface)(task)
     env.reset(seed=0)
     return {"single_env": single, "parallel_env": parallel, "env": turns}[interface](env)
@@ -62,6 +67,29 @@ def matches(task: str, worlds: int) -> Step:
     batch.reset()
     held = Held((worlds, len(batch.agents), batch.action_size))
     return lambda: batch.step(held.next())
+
+
+def physics(name: str, worlds: int) -> Step:
+    """Return a step of `Simulator` in a scene, which begins anew after its last step."""
+    scenario = next(scenario for scenario in SCENARIOS if scenario.name == name)
+    simulator, driver = SimulatorAdapter(scenario, worlds), Driver(scenario, worlds)
+    start, commands = scenario.start(rsoccer.WorldRng.seeded(0, worlds)), list[Any]()
+    simulator.place(start)
+    for step in range(scenario.episode):
+        # The commands of a crowd depend on its positions: they are the same when it plays again.
+        new = step % driver.held == 0
+        drawn = driver.commands(step, simulator.positions()) if new else None
+        commands.append(commands[-1] if drawn is None else simulator.prepare(drawn))
+        simulator.step(commands[-1])
+    steps = count()
+
+    def step_again() -> None:
+        step = next(steps) % len(commands)
+        if step == 0:
+            simulator.place(start)
+        simulator.step(commands[step])
+
+    return step_again
 
 
 def single(env: Any) -> Step:  # noqa: ANN401  (of Gymnasium)

@@ -45,8 +45,7 @@ def of_blue(play: Play, values: Array) -> Floats:
     Returns:
         (n, observers): the values for robots of blue, their negatives for those of yellow.
     """
-    signs = np.where(np.equal(play.viewpoint.teams, BLUE), np.float32(1.0), np.float32(-1.0))
-    return np.asarray(values, np.float32)[:, None] * signs
+    return np.asarray(values, np.float32)[:, None] * play.viewpoint.signs
 
 
 def events_of_team(play: Play, kinds: Collection[int]) -> Floats:

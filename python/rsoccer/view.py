@@ -96,6 +96,7 @@ class Viewpoint:
     Attributes:
         observers: (observers,) indices of the observing robots in the order of a state row.
         teams: (observers,) team of each observer: 0 for blue, 1 for yellow.
+        signs: (observers,) float32, 1 for observers of blue and -1 for those of yellow.
         core: the same viewpoint in the core, for its features.
     """
 
@@ -119,6 +120,7 @@ class Viewpoint:
         slots = [self._slots(observer, n_blue, n_yellow) for observer in observers]
         rotated = self.observers >= n_blue
         self.teams = rotated.astype(np.intp)
+        self.signs = read_only(np.where(rotated, -1.0, 1.0).astype(np.float32))
         self.core = _core.Viewpoint(n_blue + n_yellow, slots, rotated.tolist())
         self._shape = (len(observers), 1 + self._n_teammates + self._n_opponents)
 

@@ -19,6 +19,7 @@ PACKAGE = ROOT / "python"
         ("single_env", "SSLGoToBall-v0", 1),
         ("parallel_env", "VSSSelfPlay-v0", 1),
         ("env", "VSSSelfPlay-v0", 1),
+        ("Simulator", "SSL 1 v 1 crowd", 2),
     ],
 )
 def test_every_interface_is_stepped_over_the_end_of_an_episode(
@@ -50,6 +51,7 @@ def test_a_row_has_the_speed_relative_to_before() -> None:
 def test_cases_have_the_interfaces_that_fit_the_task() -> None:
     titles = {case.title for case in cases(PACKAGE)}
     assert {"Matches, VSS-v0, 512", "single_env, VSS-v0, 1", "env, VSSMulti-v0, 1"} <= titles
+    assert "Simulator, VSSS 3 v 3 random, 256" in titles
     assert not {"single_env, VSSMulti-v0, 1", "parallel_env, VSS-v0, 1"} & titles
 
 

@@ -1,12 +1,15 @@
 import re
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+import rsoccer
 from tools.paths import ROOT
-from tools.wheels import build, tryout
+from tools.wheels import build, maturin, profile, tryout, typical_play
 
 
 def test_the_readmes_program_and_commands_are_tried() -> None:
@@ -33,6 +36,46 @@ def test_a_compiler_without_the_standard_library_is_recognized(
     assert build.has_standard_library("aarch64")
 
 
+def test_a_profile_needs_the_tools_of_a_compiler_for_this_machine(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rustc = tmp_path / "rustc"
+    rustc.write_text(f"#!/bin/sh\necho {tmp_path}\n")
+    rustc.chmod(0o755)
+    monkeypatch.setenv("RUSTC", str(rustc))
+    monkeypatch.setattr("platform.machine", lambda: "x86_64")
+    here, other = (build.target(name) for name in ("x86_64", "aarch64"))
+    assert profile.merging_tool(here) is None
+    tools = {name: tmp_path / "lib" / "rustlib" / name / "bin" for name in (here, other)}
+    for folder in tools.values():
+        folder.mkdir(parents=True)
+        (folder / "llvm-profdata").touch()
+    assert profile.merging_tool(here) == tools[here] / "llvm-profdata"
+    assert profile.merging_tool(other) is None, "counters of another machine cannot run"
+
+
+def test_the_profile_is_of_all_tasks_and_sides(monkeypatch: pytest.MonkeyPatch) -> None:
+    played: list[tuple[str, str, str | None]] = []
+    play = typical_play.play
+
+    def briefly(
+        task: str, options: dict[str, Any], side: str, sensing: str | None, *_: int, **__: int
+    ) -> None:
+        played.append((task, side, sensing))
+        play(task, options, side, sensing, steps=2)
+
+    monkeypatch.setattr(typical_play, "play", briefly)
+    monkeypatch.setattr(typical_play, "WORLDS", 2)
+    typical_play.main()
+    assert {task for task, _, _ in played} == set(rsoccer.list_tasks())
+    assert {side for _, side, _ in played} == {"random", "crowd", "scripted"}
+    for _, _, sensing in played:
+        assert sensing is None or sensing.startswith(("vsss", "rc2021"))
+    settings = tomllib.loads((ROOT / "pyproject.toml").read_text())
+    assert settings["tool"]["maturin"]["pgo-command"].endswith(typical_play.__name__)
+    assert settings["tool"]["maturin"]["pgo-dependency-group"] not in settings["dependency-groups"]
+
+
 def test_the_release_builds_a_wheel_of_each_architecture_for_the_same_platform() -> None:
     workflow = (ROOT / ".github" / "workflows" / "release.yml").read_text()
     targets = dict(re.findall(r"target: ([\w-]+), compatibility: \"?(\w+)", workflow))
@@ -47,7 +90,7 @@ def test_maturin_is_that_of_the_environment_whatever_path_says(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setenv("PATH", "")
-    program = build.maturin_program()
+    program = maturin.program()
     assert program.parent == Path(sys.executable).parent
     ran = subprocess.run([program, "--version"], capture_output=True, text=True, check=True)
     assert ran.stdout.startswith("maturin ")

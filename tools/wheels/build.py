@@ -3,6 +3,8 @@
 python -m tools.wheels.build [--architectures x86_64 aarch64] [--folder out/wheels]
 
 Zig links against the symbols of an old glibc, so that a wheel runs on the distributions since.
+The wheel for this machine's architecture is built by a profile of `tools.wheels.typical_play`, if
+the compiler has LLVM's tools: `rustup component add llvm-tools`.
 A wheel for an architecture needs Rust's standard library for it; for one that the compiler does not
 have, `rustup target add` or a package of the distribution brings it (CONTRIBUTING.md).
 """
@@ -11,11 +13,12 @@ import argparse
 import os
 import subprocess
 import sys
-from importlib.metadata import files
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Final
 
 from tools.paths import ROOT
+from tools.wheels import maturin, profile
 
 PLATFORMS: Final = {
     # glibc 2.17 of 2012, the oldest that Rust's own standard library runs on.
@@ -59,7 +62,13 @@ def build_wheel(architecture: str, folder: Path) -> Path:
     """
     options = ["--locked", "--release", "--zig", "--interpreter", "python3"]
     options += ["--target", target(architecture), "--compatibility", PLATFORMS[architecture]]
-    _maturin("build", *options, "--out", str(folder))
+    with TemporaryDirectory() as temporary:
+        flags = ""
+        if (tool := profile.merging_tool(target(architecture))) is not None:
+            flags = profile.flags(target(architecture), tool, Path(temporary))
+        else:
+            print(f"the wheel for {architecture} is built without a profile", file=sys.stderr)
+        maturin.run("build", *options, "--out", str(folder), RUSTFLAGS=flags)
     wheels = sorted(folder.glob(f"rsoccer-*_{architecture}.whl"), key=lambda p: p.stat().st_mtime)
     if not wheels:
         raise RuntimeError(f"expected a wheel for {architecture} in {folder}, found none")
@@ -76,34 +85,13 @@ def build_wheel(architecture: str, folder: Path) -> Path:
 
 def build_source(folder: Path) -> Path:
     """Build the source distribution, and return its path."""
-    _maturin("sdist", "--out", str(folder))
+    maturin.run("sdist", "--out", str(folder))
     return max(folder.glob("rsoccer-*.tar.gz"), key=lambda path: path.stat().st_mtime)
 
 
 def megabytes(path: Path) -> float:
     """Return the size of a file in 10^6 bytes."""
     return path.stat().st_size / 1e6
-
-
-def maturin_program() -> Path:
-    """Return the program of the package maturin that this environment sees.
-
-    Another one may come first in PATH: that of pyenv hides this environment's Python, and so zig.
-
-    Raises:
-        RuntimeError: the package has no program.
-    """
-    for file in files("maturin") or []:
-        if file.name in ("maturin", "maturin.exe") and file.parent.name in ("bin", "Scripts"):
-            return Path(str(file.locate())).resolve()
-    raise RuntimeError("expected a program in the package maturin, found none")
-
-
-def _maturin(*arguments: str) -> None:
-    """Run maturin with the Python and the zig of this environment."""
-    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
-    command = [str(maturin_program()), *arguments]
-    subprocess.run(command, check=True, cwd=ROOT, env={**os.environ, "PATH": path})
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Annotated
 
@@ -13,6 +13,9 @@ from rsoccer.commands.output import check_output, write
 from rsoccer.identify import identify, program, read_log, report
 
 _BY_LOG = "(default: that of the log's commands)"
+_OF_FIT = ("log", "ball", "clocks", "seed")
+_OF_PROGRAM = ("rate", "max_speed", "max_angular_velocity", "pause")
+"""Options of the fit of a log, and of the program; the others are common."""
 _BEYOND = arg(help_behavior_hint="(default: somewhat more than the model's)")
 
 
@@ -49,9 +52,10 @@ class Identify(Imports):
 
         Raises:
             FileNotFoundError: no such log.
-            ValueError: neither a log nor a program, the folder of a file does not exist, or
-                `read_log` or `identify` refuses the log.
+            ValueError: neither a log nor a program, an option of the other one, the folder of a
+                file does not exist, or `read_log` or `identify` refuses the log.
         """
+        self._check_options(_OF_FIT if self.program else _OF_PROGRAM)
         if self.program:
             self._write_program()
             return
@@ -63,10 +67,16 @@ class Identify(Imports):
         if self.out is not None:
             write(f"models: {identified.save(self.out)}")
 
+    def _check_options(self, of_others: tuple[str, ...]) -> None:
+        """Refuse options that would change nothing."""
+        defaults = {each.name: each.default for each in fields(self)}
+        for name in of_others:
+            if getattr(self, name) != defaults[name]:
+                condition = "with" if self.program else "without"
+                raise ValueError(f"{name}: expected none {condition} --program")
+
     def _write_program(self) -> None:
         """Write the program to the file, or print it."""
-        if self.log:
-            raise ValueError("log: expected none with --program")
         check_output("out", self.out, ".csv")
         made = program(
             self.robot or "ssl_generic",

@@ -36,8 +36,6 @@ SCRIPTS: Final = {"keepers": "take", "takers": "keep"}
 """Policy of the other team by the team that learns."""
 LEARNERS: Final = (*SCRIPTS, "both")
 """Values of the option `learners`."""
-_SIGNS: Final = np.array([1.0, -1.0], np.float32)
-"""Sign of what is good for keepers, by team."""
 
 
 @dataclass(frozen=True)
@@ -229,7 +227,7 @@ class SslKeepaway(Ssl):
         passes = play.events.by_team(EventKind.PASS)
         self._update_possession(play, passes[:, BLUE] > 0)
         lost = np.logical_or.reduce(list(self._losses(play).values()))
-        sign = _SIGNS[play.viewpoint.teams]
+        sign = play.viewpoint.signs  # keepers are blue
         kept = np.full((len(lost), 1), self.config.time_step, np.float32)
         nearest = rewards.nearest_to_ball(play)
         terms = {

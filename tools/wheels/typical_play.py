@@ -1,0 +1,94 @@
+"""Play from which the compiler learns what is usual: `make profiled`, `make wheels`.
+
+python -m tools.wheels.typical_play
+
+maturin builds the compiled module twice: first with counters, with which it runs this program, and
+then by what they have counted. Every task plays, with robots that act at random, that all drive at
+the ball, and, in whole matches, that scripts drive; without senses and with those of its league.
+The numbers of steps are such that no league and no kind of play has most of the counts.
+"""
+
+from collections.abc import Iterator
+from typing import Any, Final
+
+import numpy as np
+
+import rsoccer
+from rsoccer.arrays import Floats
+from rsoccer.testing.pressure import Pressing
+
+WORLDS: Final = 32
+STEPS: Final = 150
+SELDOM: Final = ("VSSSelfPlay-v0", "SSLSelfPlay-v0")
+SELDOM_STEPS: Final = 20
+"""Tasks and steps of what is seldom used and takes long: the engine rapier, and forecasts."""
+HELD: Final = 10
+"""Steps for which random actions are held."""
+
+SIZES: Final[dict[str, tuple[dict[str, Any], ...]]] = {
+    "VSSMatch-v0": ({}, {"n_blue": 5, "n_yellow": 5, "field": "vss_5v5"}),
+    "SSLMatch-v0": (
+        {"n_blue": 1, "n_yellow": 1},
+        {"n_blue": 6, "n_yellow": 6},
+        {"n_blue": 11, "n_yellow": 11, "division": "A"},
+    ),
+}
+"""Options of the tasks whose teams have several sizes."""
+
+
+def main() -> None:
+    """Play all of it."""
+    for seed, (task, options) in enumerate(cases()):
+        preset = "vsss" if task.startswith("VSS") else "rc2021"
+        sides = ("random", "crowd", "scripted") if task in SIZES else ("random", "crowd")
+        for side in sides:
+            for sensing in (None, preset):
+                play(task, options, side, sensing, seed)
+    for task in SELDOM:
+        play(task, {"engine": "rapier"}, "random", None, steps=SELDOM_STEPS)
+        play(task, {}, "random", "rc2021, forecast=1", steps=SELDOM_STEPS)
+
+
+def cases() -> Iterator[tuple[str, dict[str, Any]]]:
+    """Return each task with options for it."""
+    for task in rsoccer.list_tasks():
+        for options in SIZES.get(task, ({},)):
+            yield task, options
+
+
+def play(
+    task: str,
+    options: dict[str, Any],
+    side: str,
+    sensing: str | None,
+    seed: int = 0,
+    steps: int = STEPS,
+) -> None:
+    """Play some steps of a task.
+
+    Args:
+        task: name of the task.
+        options: its options.
+        side: how the learners act: "random", "crowd", or "scripted" without learners.
+        sensing: name of a preset of senses; None for none.
+        seed: seed of the matches and of the actions.
+        steps: number of control steps.
+    """
+    controllers = {"all": "scripted"} if side == "scripted" else None
+    matches = rsoccer.Matches(
+        task, WORLDS, seed, controllers=controllers, sensing=sensing, **options
+    )
+    matches.reset()
+    pressing, rng = Pressing(matches.task, seed), np.random.default_rng(seed)
+    shape = (WORLDS, len(matches.agents), matches.action_size)
+    actions: Floats = np.zeros(shape, np.float32)
+    for step in range(steps):
+        if side == "crowd":
+            actions = pressing.actions(matches)
+        elif step % HELD == 0:
+            actions = rng.uniform(-1.0, 1.0, shape).astype(np.float32)
+        matches.step(actions)
+
+
+if __name__ == "__main__":
+    main()
