@@ -30,10 +30,12 @@ from rsoccer._core import (
     build_info,
     clip_actions,
     clip_in_place,
+    golden_hashes,
     normalized,
     pooled_moments,
 )
 from rsoccer.arrays import Array, Floats
+from tools.paths import ROOT
 
 WORLDS = 3
 CONFIG = SimConfig()
@@ -64,6 +66,13 @@ def test_names_and_sizes_agree() -> None:
     assert CONFIG.command_columns == COMMAND_COLUMNS[CONFIG.robot.drive]
     assert CROSSINGS[0] == "none"
     assert set(build_info()) == {"version", "profile", "physics"}
+
+
+def test_the_golden_hashes_are_those_of_the_core() -> None:
+    version, *lines = (ROOT / "crates/rsim-core/tests/golden.txt").read_text().splitlines()
+    assert version == f"PHYSICS_VERSION {build_info()['physics']}"
+    assert golden_hashes() == dict(line.split() for line in lines)
+    assert len(lines) == 28
 
 
 def test_a_configuration_survives_json_and_pickle() -> None:

@@ -55,6 +55,7 @@ __all__ = [
     "build_info",
     "clip_actions",
     "clip_in_place",
+    "golden_hashes",
     "mean_action_magnitude",
     "nearest_to_ball",
     "normal_inputs",
@@ -186,6 +187,16 @@ def build_info() -> dict[str, str | int]:
 
     Returns:
         `version` of the package, `profile` ("release" or "debug"), `physics` version (int).
+    """
+
+def golden_hashes() -> dict[str, str]:
+    """Play the golden scenes, and return the hashes of their states.
+
+    All builds of a physics version on all platforms have the hashes of
+    `crates/rsim-core/tests/golden.txt`.
+
+    Returns:
+        Hash by name of scene and engine, 16 hexadecimal digits.
     """
 
 @final

@@ -20,6 +20,8 @@ def test_the_readmes_program_and_commands_are_tried() -> None:
         assert name == "rsoccer"
         assert command == "--version" or f"rsoccer {command} " in readme
     compile(tryout.LIGHT, "light", "exec")
+    exec(tryout.same_bits(), {})  # of the module that the tests have built
+    assert "rapier_vss_random" in tryout.same_bits()
 
 
 def test_a_compiler_without_the_standard_library_is_recognized(

@@ -2,9 +2,9 @@
 
 python -m tools.wheels.tryout WHEEL [--folder FOLDER] [--light]
 
-With the required packages alone the README's ten lines run, and `import rsoccer` loads nothing
-else. With all extras, a trained policy is evaluated, a match is filmed, and robots train for a
-while.
+With the required packages alone the golden hashes of the physics are right, the README's ten lines
+run, and `import rsoccer` loads nothing else. With all extras, a trained policy is evaluated, a
+match is filmed, and robots train for a while.
 """
 
 import argparse
@@ -26,6 +26,7 @@ heavy = installed & {"torch", "pygame-ce", "tyro", "matplotlib", "pillow", "scip
 assert not heavy, f"rsoccer requires {heavy}"
 assert not {"torch", "pygame", "tyro"} & sys.modules.keys()
 """
+GOLDEN: Final = ROOT / "crates" / "rsim-core" / "tests" / "golden.txt"
 COMMANDS: Final = (
     "rsoccer --version",
     "rsoccer evaluate best --task VSS-v0 --matches 20",
@@ -35,6 +36,13 @@ COMMANDS: Final = (
     "rsoccer evaluate run/policy.safetensors --matches 20",
 )
 """Commands of the README, shortened."""
+
+
+def same_bits() -> str:
+    """Return a program that fails if the physics give other states than the core's tests expect."""
+    _, *lines = GOLDEN.read_text().splitlines()
+    hashes = dict(line.split() for line in lines)
+    return f"from rsoccer import _core; assert _core.golden_hashes() == {hashes}"
 
 
 def ten_lines() -> str:
@@ -90,6 +98,7 @@ def try_wheel(wheel: Path, folder: Path, light: bool) -> None:
     environment = Environment(folder)
     environment.install(str(wheel))
     environment.python(LIGHT)
+    environment.python(same_bits())
     environment.python(ten_lines())
     if light:
         return

@@ -125,4 +125,11 @@ mod _core {
         info.set_item("physics", rsim_core::PHYSICS_VERSION)?;
         Ok(info)
     }
+
+    /// Return the hashes of the golden scenes by name, which are the same for all builds.
+    #[pyfunction]
+    fn golden_hashes(py: Python<'_>) -> std::collections::BTreeMap<String, String> {
+        let hashes = py.detach(rsim_core::scenes::golden::hashes);
+        hashes.into_iter().map(|(name, hash)| (name, format!("{hash:016x}"))).collect()
+    }
 }
