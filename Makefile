@@ -103,8 +103,10 @@ check-installs: $(VENV)/built ## run every documented install line and its progr
 	$(BIN)/python -m tools.check_installs
 
 # In a folder of its own: other flags of the compiler would compile everything in the usual one again, too.
-profiled: $(VENV)/built ## build the compiled module again by a profile of usual play, as in wheels (5 minutes)
-	CARGO_TARGET_DIR=target/profiled PATH="$(CURDIR)/$(BIN):$$PATH" maturin develop --pgo --locked --skip-install
+profiled: $(VENV)/built ## build the compiled module again by a profile of typical play, as in wheels (5 minutes)
+	env -u CONDA_PREFIX VIRTUAL_ENV="$(CURDIR)/$(VENV)" PATH="$(CURDIR)/$(BIN):$$PATH" CARGO_TARGET_DIR=target/profiled \
+		PIP_CONSTRAINT="$(CURDIR)/constraints.txt" UV_CONSTRAINT="$(CURDIR)/constraints.txt" \
+		maturin develop --pgo --locked --skip-install
 
 ARCHITECTURES ?= x86_64
 wheels: $(WHEELS)/made ## build the source distribution and wheels (ARCHITECTURES="x86_64 aarch64"), and try them without a compiler

@@ -32,7 +32,7 @@ from benches.scenarios import SCENARIOS
 FOLDER: Final = ROOT / "out" / "comparison"
 WORKER: Final = Path(__file__).with_name("comparison_worker.py")
 WORLDS: Final = (1, 64, 512)
-SIMULATED: Final = 256
+SIMULATOR_WORLDS: Final = 256
 """Number of worlds of a `Simulator`."""
 TURN: Final = 0.05  # s
 WARM_UP: Final = 20  # turns
@@ -197,7 +197,7 @@ def cases(before: Path) -> Iterator[Case]:
         for interface in ("single_env",) if one else ("parallel_env", "env"):
             yield Case(interface, task, 1)
     for scenario in SCENARIOS:
-        yield Case("Simulator", scenario.name, SIMULATED)
+        yield Case("Simulator", scenario.name, SIMULATOR_WORLDS)
 
 
 def compare(before: Path, now: Path, case: Case, rounds: int) -> tuple[list[float], list[float]]:

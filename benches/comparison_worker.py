@@ -2,10 +2,10 @@
 
     python comparison_worker.py INTERFACE TASK WORLDS
 
-It imports only what all versions of the package have, and of `benches` what needs no more: the
-version is the one that comes first in `PYTHONPATH`. Each line of the input is a number of steps;
-the answer is the time that they took in this process, in seconds. The file of the imported package
-comes first.
+It imports only what all versions of the package have, but for the scenes of a `Simulator`, which
+are in `benches`: the version is the one that comes first in `PYTHONPATH`. Each line of the input is
+a number of steps; the answer is the time that they took in this process, in seconds. The file of
+the imported package comes first.
 """
 
 import json
@@ -18,8 +18,6 @@ from typing import Any, Final
 import numpy as np
 
 import rsoccer
-from benches.scenarios import SCENARIOS, Driver
-from benches.simulators import SimulatorAdapter
 
 HELD: Final = 10  # steps with the same actions
 ACTIONS: Final = 16  # different random actions, drawn in advance so as not to be measured
@@ -71,6 +69,9 @@ def matches(task: str, worlds: int) -> Step:
 
 def physics(name: str, worlds: int) -> Step:
     """Return a step of `Simulator` in a scene, which begins anew after its last step."""
+    from benches.scenarios import SCENARIOS, Driver
+    from benches.simulators import SimulatorAdapter
+
     scenario = next(scenario for scenario in SCENARIOS if scenario.name == name)
     simulator, driver = SimulatorAdapter(scenario, worlds), Driver(scenario, worlds)
     start, commands = scenario.start(rsoccer.WorldRng.seeded(0, worlds)), list[Any]()

@@ -66,6 +66,13 @@ def test_yellows_view_is_blues_view_of_the_rotated_field() -> None:
     assert not np.array_equal(yellow.ball.data, view_of(frame, [0, 1]).ball.data)
 
 
+def test_signs_are_those_of_the_observers_teams() -> None:
+    viewpoint = Viewpoint(2, 2, [0, 3, 1])
+    for each in (viewpoint, copy.deepcopy(viewpoint)):
+        assert each.signs.tolist() == [1.0, -1.0, 1.0] and each.signs.dtype == np.float32
+        assert not each.signs.flags.writeable
+
+
 def test_teams_of_different_size_leave_slots_empty() -> None:
     frame = random_frame(2, 1, 3)
     view = view_of(frame, [0, 2])

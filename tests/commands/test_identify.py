@@ -2,12 +2,14 @@
 
 import io
 import json
+from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from rsoccer import RobotModel, cli
+from rsoccer.commands import identify as command
 from rsoccer.identify import record, write_log
 
 
@@ -61,6 +63,13 @@ def test_a_slower_program_is_shorter_and_waits_for_the_ball(
     kicks = [each[each[:, 4] > 0, 0] for each in (usual, slow)]
     pauses = [np.diff(times)[np.diff(times) > 1.0].min() for times in kicks]
     assert pauses[1] - pauses[0] == pytest.approx(4.5, abs=0.1)
+
+
+def test_every_option_is_of_the_fit_or_of_the_program_or_of_both() -> None:
+    common = {"robot", "out", "program", "imports"}
+    own = {*command._OF_FIT, *command._OF_PROGRAM}
+    assert not own & common
+    assert own | common == {each.name for each in fields(command.Identify)}
 
 
 @pytest.mark.parametrize(

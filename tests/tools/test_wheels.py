@@ -56,6 +56,32 @@ def test_a_profile_needs_the_tools_of_a_compiler_for_this_machine(
     assert profile.merging_tool(other) is None, "counters of another machine cannot run"
 
 
+def test_a_profile_adds_a_flag_to_those_of_the_caller(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    built: list[dict[str, str]] = []
+
+    def build_nothing(*_: str, **variables: str) -> None:
+        built.append(variables)
+        (tmp_path / "wheels").mkdir()
+
+    monkeypatch.setattr(maturin, "run", build_nothing)
+    monkeypatch.setattr(subprocess, "run", lambda *_, **__: None)
+    monkeypatch.setenv("RUSTFLAGS", "-Ctarget-cpu=native")
+    with pytest.raises(RuntimeError, match="expected counts of the play"):
+        profile.flag("system", tmp_path / "tool", tmp_path)
+    (tmp_path / "wheels").rmdir()
+    counts = tmp_path / "counts"
+    counts.mkdir()
+    (counts / "1.profraw").touch()
+    flag = profile.flag("system", tmp_path / "tool", tmp_path)
+    assert profile.with_flag(flag) == f"-Ctarget-cpu=native -Cprofile-use={tmp_path / 'profile'}"
+    [first, _] = (variables["RUSTFLAGS"] for variables in built)
+    assert first == f"-Ctarget-cpu=native -Cprofile-generate={counts}"
+    monkeypatch.delenv("RUSTFLAGS")
+    assert profile.with_flag("-C") == "-C"
+
+
 def test_the_profile_is_of_all_tasks_and_sides(monkeypatch: pytest.MonkeyPatch) -> None:
     played: list[tuple[str, str, str | None]] = []
     play = typical_play.play

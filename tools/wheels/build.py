@@ -62,13 +62,14 @@ def build_wheel(architecture: str, folder: Path) -> Path:
     """
     options = ["--locked", "--release", "--zig", "--interpreter", "python3"]
     options += ["--target", target(architecture), "--compatibility", PLATFORMS[architecture]]
-    with TemporaryDirectory() as temporary:
-        flags = ""
-        if (tool := profile.merging_tool(target(architecture))) is not None:
-            flags = profile.flags(target(architecture), tool, Path(temporary))
-        else:
-            print(f"the wheel for {architecture} is built without a profile", file=sys.stderr)
-        maturin.run("build", *options, "--out", str(folder), RUSTFLAGS=flags)
+    options += ["--out", str(folder)]
+    if (tool := profile.merging_tool(target(architecture))) is None:
+        print(f"the wheel for {architecture} is built without a profile", file=sys.stderr)
+        maturin.run("build", *options)
+    else:
+        with TemporaryDirectory() as temporary:
+            flag = profile.flag(target(architecture), tool, Path(temporary))
+            maturin.run("build", *options, RUSTFLAGS=profile.with_flag(flag))
     wheels = sorted(folder.glob(f"rsoccer-*_{architecture}.whl"), key=lambda p: p.stat().st_mtime)
     if not wheels:
         raise RuntimeError(f"expected a wheel for {architecture} in {folder}, found none")

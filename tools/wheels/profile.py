@@ -30,8 +30,8 @@ def merging_tool(target: str) -> Path | None:
     return tool if tool.exists() else None
 
 
-def flags(target: str, tool: Path, folder: Path) -> str:
-    """Make a profile, and return the flags of the compiler that build by it.
+def flag(target: str, tool: Path, folder: Path) -> str:
+    """Make a profile, and return the flag of the compiler that builds by it.
 
     Args:
         target: Rust's name of the system of the wheel.
@@ -40,11 +40,12 @@ def flags(target: str, tool: Path, folder: Path) -> str:
 
     Raises:
         CalledProcessError: The build with counters or the play has failed.
+        RuntimeError: The play has counted nothing.
     """
     counts, wheels, packages = (folder / name for name in ("counts", "wheels", "packages"))
     options = ["--locked", "--release", "--interpreter", "python3", "--target", target]
     variables = {
-        "RUSTFLAGS": f"-Cprofile-generate={counts}",
+        "RUSTFLAGS": with_flag(f"-Cprofile-generate={counts}"),
         # Other flags would compile everything in the usual folder again, too.
         "CARGO_TARGET_DIR": str(ROOT / "target" / "counting-play"),
     }
@@ -52,10 +53,18 @@ def flags(target: str, tool: Path, folder: Path) -> str:
     pip = [sys.executable, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
     pip += ["--constraint", str(ROOT / "constraints.txt"), "--target", str(packages)]
     subprocess.run([*pip, *map(str, wheels.iterdir())], check=True)
-    environment = {**os.environ, "PYTHONPATH": str(packages)}
+    names = str(counts / "%m-%p.profraw")
+    environment = {**os.environ, "PYTHONPATH": str(packages), "LLVM_PROFILE_FILE": names}
     play = [sys.executable, "-m", typical_play.__name__]
     subprocess.run(play, check=True, cwd=ROOT, env=environment)
-    profile = folder / "profile"
-    merge = [str(tool), "merge", "--output", str(profile), *map(str, counts.iterdir())]
-    subprocess.run(merge, check=True)
-    return f"-Cprofile-use={profile}"
+    files = [str(path) for path in counts.glob("*.profraw")]
+    if not files:
+        raise RuntimeError(f"expected counts of the play in {counts}, found none")
+    merged = folder / "profile"
+    subprocess.run([str(tool), "merge", "--output", str(merged), *files], check=True)
+    return f"-Cprofile-use={merged}"
+
+
+def with_flag(flag: str) -> str:
+    """Return the compiler's flags of this process with another one."""
+    return " ".join(filter(None, (os.environ.get("RUSTFLAGS"), flag)))

@@ -42,7 +42,12 @@ def same_bits() -> str:
     """Return a program that fails if the physics give other states than the core's tests expect."""
     _, *lines = GOLDEN.read_text().splitlines()
     hashes = dict(line.split() for line in lines)
-    return f"from rsoccer import _core; assert _core.golden_hashes() == {hashes}"
+    return f"""
+from rsoccer import _core
+found, expected = _core.golden_hashes(), {hashes}
+differ = sorted(name for name in found | expected if found.get(name) != expected.get(name))
+assert not differ, f"other states in {{differ}}"
+"""
 
 
 def ten_lines() -> str:

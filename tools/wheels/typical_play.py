@@ -2,10 +2,9 @@
 
 python -m tools.wheels.typical_play
 
-maturin builds the compiled module twice: first with counters, with which it runs this program, and
-then by what they have counted. Every task plays, with robots that act at random, that all drive at
+The compiled module is built twice: first with counters, with which this program runs, and then by
+what they have counted. Every task plays, with robots that act at random, that all drive at
 the ball, and, in whole matches, that scripts drive; without senses and with those of its league.
-The numbers of steps are such that no league and no kind of play has most of the counts.
 """
 
 from collections.abc import Iterator
@@ -39,14 +38,18 @@ SIZES: Final[dict[str, tuple[dict[str, Any], ...]]] = {
 def main() -> None:
     """Play all of it."""
     for seed, (task, options) in enumerate(cases()):
-        preset = "vsss" if task.startswith("VSS") else "rc2021"
         sides = ("random", "crowd", "scripted") if task in SIZES else ("random", "crowd")
         for side in sides:
-            for sensing in (None, preset):
+            for sensing in (None, preset(task)):
                 play(task, options, side, sensing, seed)
     for task in SELDOM:
         play(task, {"engine": "rapier"}, "random", None, steps=SELDOM_STEPS)
-        play(task, {}, "random", "rc2021, forecast=1", steps=SELDOM_STEPS)
+        play(task, {}, "random", f"{preset(task)}, forecast=1", steps=SELDOM_STEPS)
+
+
+def preset(task: str) -> str:
+    """Return the name of the senses of a task's league."""
+    return "vsss" if task.startswith("VSS") else "rc2021"
 
 
 def cases() -> Iterator[tuple[str, dict[str, Any]]]:

@@ -14,8 +14,9 @@ from rsoccer.identify import identify, program, read_log, report
 
 _BY_LOG = "(default: that of the log's commands)"
 _OF_FIT = ("log", "ball", "clocks", "seed")
+"""Options of the fit of a log alone."""
 _OF_PROGRAM = ("rate", "max_speed", "max_angular_velocity", "pause")
-"""Options of the fit of a log, and of the program; the others are common."""
+"""Options of the program alone."""
 _BEYOND = arg(help_behavior_hint="(default: somewhat more than the model's)")
 
 
@@ -67,10 +68,10 @@ class Identify(Imports):
         if self.out is not None:
             write(f"models: {identified.save(self.out)}")
 
-    def _check_options(self, of_others: tuple[str, ...]) -> None:
+    def _check_options(self, refused: tuple[str, ...]) -> None:
         """Refuse options that would change nothing."""
         defaults = {each.name: each.default for each in fields(self)}
-        for name in of_others:
+        for name in refused:
             if getattr(self, name) != defaults[name]:
                 condition = "with" if self.program else "without"
                 raise ValueError(f"{name}: expected none {condition} --program")
