@@ -76,19 +76,18 @@ def physics(name: str, worlds: int) -> Step:
     simulator, driver = SimulatorAdapter(scenario, worlds), Driver(scenario, worlds)
     start, commands = scenario.start(rsoccer.WorldRng.seeded(0, worlds)), list[Any]()
     simulator.place(start)
-    for step in range(scenario.episode):
+    for first in range(0, scenario.episode, driver.held):
         # The commands of a crowd depend on its positions: they are the same when it plays again.
-        new = step % driver.held == 0
-        drawn = driver.commands(step, simulator.positions()) if new else None
-        commands.append(commands[-1] if drawn is None else simulator.prepare(drawn))
-        simulator.step(commands[-1])
+        commands.append(simulator.prepare(driver.commands(first, simulator.positions())))
+        for _ in range(driver.held):
+            simulator.step(commands[-1])
     steps = count()
 
     def step_again() -> None:
-        step = next(steps) % len(commands)
+        step = next(steps) % scenario.episode
         if step == 0:
             simulator.place(start)
-        simulator.step(commands[step])
+        simulator.step(commands[step // driver.held])
 
     return step_again
 

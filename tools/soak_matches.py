@@ -19,6 +19,7 @@ from benches.markdown import table
 from benches.result_files import RESULTS
 from rsoccer.arrays import Floats
 from rsoccer.matches import Matches
+from rsoccer.task import Task
 from rsoccer.tasks.match import Match
 from rsoccer.testing.pressure import Pressing
 from tools.match_audit import AuditError, MatchAudit
@@ -76,7 +77,7 @@ class Soaked:
 class Actions:
     """Actions of learners, in all worlds of a batch."""
 
-    def __init__(self, sides: str, task: Match, seed: int) -> None:
+    def __init__(self, sides: str, task: Task, seed: int) -> None:
         """Begin.
 
         Args:

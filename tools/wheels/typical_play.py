@@ -10,19 +10,14 @@ the ball, and, in whole matches, that scripts drive; without senses and with tho
 from collections.abc import Iterator
 from typing import Any, Final
 
-import numpy as np
-
 import rsoccer
-from rsoccer.arrays import Floats
-from rsoccer.testing.pressure import Pressing
+from tools.soak_matches import SIDES, Actions
 
 WORLDS: Final = 32
 STEPS: Final = 150
 SELDOM: Final = ("VSSSelfPlay-v0", "SSLSelfPlay-v0")
 SELDOM_STEPS: Final = 20
 """Tasks and steps of what is seldom used and takes long: the engine rapier, and forecasts."""
-HELD: Final = 10
-"""Steps for which random actions are held."""
 
 SIZES: Final[dict[str, tuple[dict[str, Any], ...]]] = {
     "VSSMatch-v0": ({}, {"n_blue": 5, "n_yellow": 5, "field": "vss_5v5"}),
@@ -38,8 +33,7 @@ SIZES: Final[dict[str, tuple[dict[str, Any], ...]]] = {
 def main() -> None:
     """Play all of it."""
     for seed, (task, options) in enumerate(cases()):
-        sides = ("random", "crowd", "scripted") if task in SIZES else ("random", "crowd")
-        for side in sides:
+        for side in SIDES if task in SIZES else ("random", "crowd"):
             for sensing in (None, preset(task)):
                 play(task, options, side, sensing, seed)
     for task in SELDOM:
@@ -72,7 +66,7 @@ def play(
     Args:
         task: name of the task.
         options: its options.
-        side: how the learners act: "random", "crowd", or "scripted" without learners.
+        side: one of `SIDES`: how the learners act; "scripted" has no learners.
         sensing: name of a preset of senses; None for none.
         seed: seed of the matches and of the actions.
         steps: number of control steps.
@@ -82,15 +76,9 @@ def play(
         task, WORLDS, seed, controllers=controllers, sensing=sensing, **options
     )
     matches.reset()
-    pressing, rng = Pressing(matches.task, seed), np.random.default_rng(seed)
-    shape = (WORLDS, len(matches.agents), matches.action_size)
-    actions: Floats = np.zeros(shape, np.float32)
-    for step in range(steps):
-        if side == "crowd":
-            actions = pressing.actions(matches)
-        elif step % HELD == 0:
-            actions = rng.uniform(-1.0, 1.0, shape).astype(np.float32)
-        matches.step(actions)
+    actions = Actions(side, matches.task, seed)
+    for _ in range(steps):
+        matches.step(actions.next(matches))
 
 
 if __name__ == "__main__":
