@@ -23,7 +23,7 @@ use crate::tick::squeeze::Squeeze;
 pub(crate) use commands::{Heard, StepCommands};
 
 /// Version of the physics, raised whenever the same start and commands would give other states.
-pub const PHYSICS_VERSION: u32 = 8;
+pub const PHYSICS_VERSION: u32 = 9;
 
 /// Inputs of a tick.
 pub(crate) struct Tick<'a> {

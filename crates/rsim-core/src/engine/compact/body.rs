@@ -20,6 +20,8 @@ pub(in crate::engine) struct SolverBody {
     /// 1/kg, and 1/(kg m²); 0 for a wall.
     pub(in crate::engine) inverse_mass: f32,
     pub(in crate::engine) inverse_inertia: f32,
+    /// Time, s, by which it gains its speed later than at the start of a sub-step.
+    pub(in crate::engine) lag: f32,
 }
 
 impl SolverBody {
@@ -31,6 +33,7 @@ impl SolverBody {
             angular_velocity: motion.angular_velocity,
             inverse_mass: inverse.mass,
             inverse_inertia: inverse.inertia,
+            lag: 0.0,
         }
     }
 
@@ -42,6 +45,7 @@ impl SolverBody {
             angular_velocity: 0.0,
             inverse_mass: 0.0,
             inverse_inertia: 0.0,
+            lag: 0.0,
         }
     }
 
@@ -56,15 +60,28 @@ impl SolverBody {
         PlacedOutline { outline, position: self.position, heading }
     }
 
-    /// Accelerates the body for `time` (s).
-    pub(in crate::engine) fn accelerate(&mut self, acceleration: Acceleration, time: f32) {
+    /// Accelerates the body for `time` (s); as long as it touches nothing, it moves as if it gained its speed
+    /// later by `lag` (s).
+    pub(in crate::engine) fn accelerate(
+        &mut self,
+        acceleration: Acceleration,
+        time: f32,
+        lag: f32,
+    ) {
         self.velocity += acceleration.linear * time;
         self.angular_velocity += acceleration.angular * time;
+        self.lag = lag;
     }
 
-    /// Moves the body for `time` (s).
-    pub(in crate::engine) fn advance(&mut self, time: f32) {
-        self.position += self.velocity * time;
-        self.heading = rotated(self.heading, self.angular_velocity * time);
+    /// Notes that it touches another body or a wall, which a sub-step resolves at its start.
+    pub(super) fn touch(&mut self) {
+        self.lag = 0.0;
+    }
+
+    /// Moves the body for `time` (s), to the end of which `acceleration` has changed its velocity.
+    pub(in crate::engine) fn advance(&mut self, acceleration: Acceleration, time: f32) {
+        self.position += (self.velocity - acceleration.linear * self.lag) * time;
+        let angular_velocity = self.angular_velocity - acceleration.angular * self.lag;
+        self.heading = rotated(self.heading, angular_velocity * time);
     }
 }

@@ -10,6 +10,10 @@ use super::pass::Pass;
 use super::two_points::solve_two;
 use crate::math::Vector;
 
+/// Difference of two separations by rounding, m: which of two points on a face is the nearer one must not turn
+/// the body.
+const EVEN: f32 = 1e-6;
+
 /// A contact point in the solver.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ConstraintPoint {
@@ -136,6 +140,9 @@ impl Constraint {
 
     /// Applies the impulses that the solution starts from.
     pub(super) fn warm_start(&mut self, bodies: &mut [SolverBody]) {
+        for body in [self.first, self.second] {
+            bodies[body].touch();
+        }
         let [one, two] = &self.points;
         let impulses = [one.impulse, two.impulse];
         if impulses[0] <= 0.0 && impulses[1] <= 0.0 {
@@ -206,8 +213,13 @@ impl Constraint {
         let [one, two] = &mut self.points;
         let old = [one.impulse, two.impulse];
         let is_idle = old[0] <= 0.0 && old[1] <= 0.0;
-        let row = pass.row(relative.closing(one.levers), one.separation);
-        let other = pass.row(relative.closing(two.levers), two.separation);
+        let [mut near, mut far] = [one.separation, two.separation];
+        if (far - near).abs() < EVEN {
+            near = 0.5 * (near + far);
+            far = near;
+        }
+        let row = pass.row(relative.closing(one.levers), near);
+        let other = pass.row(relative.closing(two.levers), far);
         if is_idle && row.speed >= 0.0 && other.speed >= 0.0 {
             return None;
         }

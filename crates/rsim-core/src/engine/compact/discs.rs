@@ -113,6 +113,7 @@ mod tests {
             angular_velocity: 0.0,
             inverse_mass: 1.0,
             inverse_inertia: 1.0,
+            lag: 0.0,
         }
     }
 

@@ -2,8 +2,8 @@
 //!
 //! Each sub-step is a small tick: contacts are found anew on the paths of that sub-step, solved by
 //! sequential impulses with soft constraints, and relaxed, so that the push out of an overlap does not
-//! stay in the velocities. Impulses start from those of the last sub-step. With three sub-steps in a
-//! tick instead of four, overlaps in crowds are twice as deep.
+//! stay in the velocities. Impulses start from those of the last sub-step. Where all that can meet moves slowly,
+//! two sub-steps are solved as one.
 //!
 //! The result has the same bits on every platform: the solver adds, multiplies, divides, takes square
 //! roots and compares, always in the order of the bodies.
@@ -22,6 +22,7 @@ mod pass;
 mod rectangle;
 mod report;
 mod sliding;
+mod sub_step;
 mod two_points;
 mod warm_start;
 
@@ -37,9 +38,9 @@ use constraint::Constraint;
 use impulses::Impulses;
 use link::Link;
 pub(super) use manifold::{Manifold, Window};
-use pass::Pass;
 pub(super) use rectangle::Rectangle;
 use report::report;
+use sub_step::SubStep;
 pub(super) use warm_start::CompactSolver;
 
 /// Minimum number of passes over all contacts in a sub-step, usually and while a ball is jammed: with
@@ -78,31 +79,31 @@ impl CompactSolver {
         near: NearBodies,
         scratch: &mut CompactScratch,
         rules: &BallRules,
-        SubSteps { time, count }: SubSteps,
+        sub_steps: SubSteps,
         contacts: &mut Contacts,
     ) -> bool {
         scratch.read(bodies, rules.parameters, near.pairs);
-        self.link(bodies, near.pairs, rules, time, scratch);
+        let step = SubStep::of(
+            sub_steps,
+            &scratch.bodies,
+            near.pairs,
+            near.fastest,
+            rules.squeezed.is_some(),
+        );
+        self.link(bodies, near.pairs, rules, step.time(), scratch);
         let jammed = rules.squeezed.is_some_and(|squeezed| squeezed.jammed);
         let min_passes = if jammed { MIN_PASSES_JAMMED } else { MIN_PASSES };
-        let step = SubStep {
-            window: Window { time, reach: 2.0 * near.fastest * time },
-            pushing: Pass::pushing(time),
-            pushing_ball: Pass::pushing_ball(time),
-            relaxing: Pass::relaxing(time),
-            squeezed: rules.squeezed.is_some(),
-        };
         if scratch.constraints.len() < scratch.links.len() {
             scratch.constraints.resize(scratch.links.len(), Constraint::default());
         }
         let mut meets = false;
-        for _ in 0..count {
+        for _ in 0..step.count {
             scratch.advance(&step, min_passes);
             meets |= !scratch.constrained.is_empty();
         }
-        bodies.move_freely(SubSteps { time, count });
+        bodies.move_freely(sub_steps);
         scratch.write(bodies);
-        self.store(bodies, &scratch.links, time);
+        self.store(bodies, &scratch.links, step.time());
         report(&scratch.links, &scratch.bodies, contacts);
         meets
     }
@@ -121,16 +122,6 @@ pub(super) struct NearBodies<'a> {
     pub(super) pairs: &'a [Pair],
     /// Speed that a push can give a robot at rest, m/s.
     pub(super) fastest: f32,
-}
-
-/// Settings of one sub-step.
-struct SubStep {
-    window: Window,
-    pushing: Pass,
-    pushing_ball: Pass,
-    relaxing: Pass,
-    /// Whether the ball is squeezed.
-    squeezed: bool,
 }
 
 impl CompactScratch {
@@ -156,9 +147,9 @@ impl CompactScratch {
     /// Advances the bodies that can meet others by a sub-step.
     fn advance(&mut self, step: &SubStep, min_passes: usize) {
         let Self { bodies, met, links, constraints, constrained, .. } = self;
-        let time = step.window.time;
+        let time = step.time();
         for Met { body, acceleration } in met.iter() {
-            bodies[*body].accelerate(*acceleration, time);
+            bodies[*body].accelerate(*acceleration, time, step.lag);
         }
         constrained.clear();
         for index in 0..links.len() {
@@ -192,8 +183,8 @@ impl CompactScratch {
         for index in constrained.iter() {
             constraints[*index].close(bodies, time);
         }
-        for Met { body, .. } in met.iter() {
-            bodies[*body].advance(time);
+        for Met { body, acceleration } in met.iter() {
+            bodies[*body].advance(*acceleration, time);
         }
         for index in constrained.iter() {
             constraints[*index].solve(bodies, &step.relaxing);
