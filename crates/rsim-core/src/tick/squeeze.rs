@@ -34,7 +34,7 @@ const JAMMED_MASS_RATIO: f32 = 0.5;
 const WALL_WEIGHT: f32 = 1e4;
 
 /// A body or wall around the ball.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 struct Side {
     /// Unit vector from the side to the ball.
     normal: Vector,
@@ -68,7 +68,8 @@ impl Side {
 
 /// The sides around the ball in a tick.
 struct Sides {
-    all: [Option<Side>; MAX_SIDES],
+    places: [Side; MAX_SIDES],
+    /// Number of sides, which have the first places.
     count: usize,
 }
 
@@ -129,7 +130,7 @@ impl Sides {
         let (center, radius) = (bodies.motion(BALL).position, parameters.ball.radius);
         let mut near = bodies.robots_near_ball(parameters, reach).peekable();
         near.peek()?; // in most ticks
-        let mut sides = Self { all: [None; MAX_SIDES], count: 0 };
+        let mut sides = Self { places: [Side::default(); MAX_SIDES], count: 0 };
         for index in near {
             let body = &parameters.robots[index];
             if height < body.model.height {
@@ -148,14 +149,14 @@ impl Sides {
     }
 
     fn add(&mut self, side: Side) {
-        if let Some(slot) = self.all.get_mut(self.count) {
-            *slot = Some(side);
+        if let Some(place) = self.places.get_mut(self.count) {
+            *place = side;
             self.count += 1;
         }
     }
 
     fn iter(&self) -> impl Iterator<Item = &Side> {
-        self.all.iter().flatten()
+        self.places[..self.count].iter()
     }
 
     /// Velocity of a ball that two or three sides jam, m/s; `None` if it has a way out. `closes` says
