@@ -129,7 +129,6 @@ mod _core {
     /// Return the hashes of the golden scenes by name, which are the same for all builds.
     #[pyfunction]
     fn golden_hashes(py: Python<'_>) -> std::collections::BTreeMap<String, String> {
-        let hashes = py.detach(rsim_core::scenes::golden::hashes);
-        hashes.into_iter().map(|(name, hash)| (name, format!("{hash:016x}"))).collect()
+        py.detach(rsim_core::scenes::golden::hashes).into_iter().collect()
     }
 }

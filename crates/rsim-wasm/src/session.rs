@@ -236,7 +236,7 @@ impl Session {
 
     pub(crate) fn golden(&mut self) -> i32 {
         let lines = scenes::golden::hashes().into_iter();
-        let lines: Vec<String> = lines.map(|(name, hash)| format!("{name} {hash:016x}")).collect();
+        let lines: Vec<String> = lines.map(|(name, hash)| format!("{name} {hash}")).collect();
         self.output = lines.join("\n").into_bytes();
         0
     }

@@ -79,12 +79,12 @@ pub fn hash(scene: &Scene) -> u64 {
         })
 }
 
-/// Hashes of all scenes under each engine, by the names of both.
-pub fn hashes() -> Vec<(String, u64)> {
+/// Hashes of all scenes under each engine, by the names of both, in hexadecimal digits.
+pub fn hashes() -> Vec<(String, String)> {
     let all = EngineKind::ALL.into_iter().flat_map(|engine| {
         scenes().into_iter().map(move |(name, mut scene)| {
             scene.config.engine = engine;
-            (format!("{}_{name}", engine.name()), hash(&scene))
+            (format!("{}_{name}", engine.name()), format!("{:016x}", hash(&scene)))
         })
     });
     all.collect()
