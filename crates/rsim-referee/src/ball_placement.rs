@@ -91,8 +91,8 @@ fn needs_placement(game: &Game, moment: &Moment) -> bool {
         || ball.speed() >= config.stuck_speed
 }
 
-/// The team that places the ball: the one in favor, or for a force start the teams in turns. After it has
-/// failed the others try. `None` where the referee places it.
+/// The team that places the ball: the one in favor, or for a force start the teams in turns, first the one
+/// that had the first kick-off. After it has failed the others try. `None` where the referee places it.
 fn placing_team(game: &mut Game, moment: &Moment, next: Command) -> Option<Team> {
     let failed = Team::BOTH.into_iter().find(|team| game.has_failed_placement[*team]);
     if let Some(failed) = failed {
@@ -102,7 +102,11 @@ fn placing_team(game: &mut Game, moment: &Moment, next: Command) -> Option<Team>
         return Some(favored).filter(|team| may_place(game, moment, *team));
     }
     game.neutral_placements += 1;
-    let first = if game.neutral_placements % 2 == 1 { Team::Blue } else { Team::Yellow };
+    let first = if game.neutral_placements % 2 == 1 {
+        game.first_kickoff
+    } else {
+        game.first_kickoff.opponent()
+    };
     [first, first.opponent()].into_iter().find(|team| may_place(game, moment, *team))
 }
 

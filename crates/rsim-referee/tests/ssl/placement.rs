@@ -263,25 +263,29 @@ fn a_success_lowers_the_count_of_failures() {
 
 #[test]
 fn for_a_force_start_the_teams_take_turns() {
-    for mut scene in views_with_placement(B) {
-        let mut placing = Vec::new();
-        for _ in 0..4 {
-            place(&mut scene, ForceStart);
-            placing.push(scene.game.command);
-            scene.ball(1.0, 2.0);
-            scene.run(2.1, |scene| scene.game.command == ForceStart);
+    for first in Team::BOTH {
+        for mut scene in views_with_placement(B) {
+            scene.game.first_kickoff = first;
+            let mut placing = Vec::new();
+            for _ in 0..4 {
+                place(&mut scene, ForceStart);
+                placing.push(scene.game.command);
+                scene.ball(1.0, 2.0);
+                scene.run(2.1, |scene| scene.game.command == ForceStart);
+            }
+            let other = first.opponent();
+            assert_eq!(placing, [first, other, first, other].map(BallPlacement));
         }
-        let expected = [Team::Blue, Team::Yellow, Team::Blue, Team::Yellow].map(BallPlacement);
-        assert_eq!(placing, expected);
-    }
-    for mut scene in views_with_placement(B) {
-        place(&mut scene, ForceStart);
-        fail(&mut scene);
-        scene.wait(2.0);
-        assert_eq!(scene.game.command, BallPlacement(Team::Yellow));
-        fail(&mut scene);
-        assert_eq!(scene.game.command, ForceStart);
-        expect_near(scene.ball_at(), (1.0, 2.0));
+        for mut scene in views_with_placement(B) {
+            scene.game.first_kickoff = first;
+            place(&mut scene, ForceStart);
+            fail(&mut scene);
+            scene.wait(2.0);
+            assert_eq!(scene.game.command, BallPlacement(first.opponent()));
+            fail(&mut scene);
+            assert_eq!(scene.game.command, ForceStart);
+            expect_near(scene.ball_at(), (1.0, 2.0));
+        }
     }
 }
 
