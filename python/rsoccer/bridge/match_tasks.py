@@ -22,6 +22,8 @@ LEAGUES: Final = ("ssl", "vsss")
 class TickedSslMatch(SslMatch):
     """`SslMatch` with a control step of one tick."""
 
+    name = "SSL match at 200 Hz"
+
     @cached_property
     def config(self) -> SimConfig:
         """Configuration of `SslMatch` with steps of `TICK`."""
@@ -30,6 +32,8 @@ class TickedSslMatch(SslMatch):
 
 class TickedVssMatch(VssMatch):
     """`VssMatch` with a control step of one tick."""
+
+    name = "VSSS match at 200 Hz"
 
     @cached_property
     def config(self) -> SimConfig:
