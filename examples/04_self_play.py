@@ -1,6 +1,6 @@
 """Train a policy by self-play, evaluate it, and film a match.
 
-After a minute of training the robots drive to the ball; `make demo` trains longer.
+After a minute of training the robots drive to the ball; `make demo` has settings for a shorter run.
 """
 
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Demonstration in a few minutes: train a policy, evaluate it, film a match (`make demo`)."""
+"""Demonstration in about a minute: train a policy, evaluate it, film a match (`make demo`)."""
 
 from __future__ import annotations
 
@@ -18,17 +18,25 @@ from rsoccer.train import Args, train
 from rsoccer.train.run.learning_curve import plot_learning_curve
 
 TASK = "VSSSelfPlay-v0"
-SAMPLES = 1_400_000
-"""Default number of decisions to learn from: about a minute of training on two cores."""
+SAMPLES = 800_000
+"""Number of decisions to learn from: less than a minute of training on two cores."""
 SHORT_RUN: Final[Mapping[str, Any]] = {
-    "rollout": {"worlds": 256},
-    "ppo": {"n_minibatches": 4},
+    "rollout": {"worlds": 128},
+    "network": {"action_std": 0.8, "final_action_std": 0.4},
+    "ppo": {"n_epochs": 3, "n_minibatches": 8},
     "opponents": {"solo_fraction": 0.8},
 }
-"""Settings of a run that ends before teams play well: most of it has one learner per match, and
-small batches make progress sooner."""
-LADDER_INTERVAL = 25
-"""Updates between two points of the learning curve."""
+"""Settings of a run that ends before teams play well.
+
+- Most of the run has one learner per match, whose reward follows from its own actions.
+- The actions have a wide spread to the end, so exploring does not stop. A narrow spread leaves more
+  draws: after 600,000 decisions a run with a spread from .6 to .1 scored .76 against `zero`, one
+  with a spread from .8 to .4 scored .955 (one seed each).
+- Small batches give more updates, and small minibatches give more steps in a pass. Three passes
+  over them then learn about as much as six over large ones, for less time.
+"""
+LADDER_INTERVAL = 44
+"""Updates between two points of the learning curve, which has three: a point takes 2 s or more."""
 
 
 def demo(out: Path, samples: int = SAMPLES, matches: int = 200) -> dict[str, Any]:
