@@ -83,7 +83,7 @@ def test_the_table_has_a_line_for_both_teams() -> None:
 
 
 def test_a_tournament_counts_matches_and_not_goals() -> None:
-    found = tournament(["scripted", "ou", "zero"], matches=4, seed=1, task=SHORT)
+    found = tournament(["scripted", "ou", "zero"], matches=4, seed=2, task=SHORT)
     best = found.standings[0]
     assert best.policy == "scripted"
     assert (best.wins, best.losses, best.score) == (8, 0, 1.0)

@@ -103,7 +103,7 @@ def test_a_wedged_ball_leads_to_a_free_ball_after_ten_seconds(name: str, engine:
     assert not frame.ball.velocity.any()
     assert not outcome.ended.any()
     for term in ("ball_to_goal", "approach"):
-        assert not outcome.terms[term].any(), "the move is not rewarded"
+        assert np.abs(outcome.terms[term]).max() < 1e-5, "the move is not rewarded"
     assert same(matches.play.frame.rows, matches.play.last_frame.rows)
     outcome = matches.step(pushes(matches))
     assert np.abs(matches.frame.robots.velocity[0, [0, 3], 0]).min() > 0.0, "play continues"
