@@ -18,8 +18,9 @@ from rsoccer.train import Args, train
 from rsoccer.train.run.learning_curve import plot_learning_curve
 
 TASK = "VSSSelfPlay-v0"
-SAMPLES = 800_000
-"""Number of decisions to learn from: less than a minute of training on two cores."""
+SAMPLES = 1_000_000
+"""Number of decisions to learn from: half a minute of training on two cores. Policies of five seeds
+scored .94 to .99 against `zero` and .915 to .975 against `ou`."""
 SHORT_RUN: Final[Mapping[str, Any]] = {
     "rollout": {"worlds": 128},
     "network": {"action_std": 0.8, "final_action_std": 0.4},
