@@ -62,7 +62,7 @@ DEMO = DOCS / "demo.json"
 DEMO_PARTS = {"ladder": "evaluation", "tasks": "observations and rewards"}
 """Names of parts of the training's time where they differ from those of the log."""
 PICTURES = {
-    "match": ("docs/match.gif", "A match after a minute of training"),
+    "match": ("docs/match.gif", "A match after half a minute of training"),
     "curve": ("docs/curve.png", "Goal score over training"),
 }
 """Pictures that `tools.keep_demo` copies or films: path and description."""
