@@ -37,7 +37,7 @@ help: ## list all targets
 
 venv: $(VENV)/made ## create the empty virtual environment, to install a PyTorch of your choice first
 
-demo: $(VENV)/built ## train robots by self-play for a minute, evaluate them, record a match
+demo: $(VENV)/built ## train robots by self-play for half a minute, evaluate them, record a match
 	$(BIN)/python -m rsoccer.demo
 
 test: ## run every check: formatting, lints, types, all tests, trainer libraries, the documentation site

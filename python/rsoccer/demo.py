@@ -37,7 +37,7 @@ SHORT_RUN: Final[Mapping[str, Any]] = {
   over them then learn about as much as six over large ones, for less time.
 """
 LADDER_INTERVAL = 44
-"""Updates between two points of the learning curve, which has four: a point takes 2 s or more."""
+"""Updates between two points of the learning curve, which has four: a point takes about 2 s."""
 
 
 def demo(out: Path, samples: int = SAMPLES, matches: int = 200) -> dict[str, Any]:

@@ -8,7 +8,6 @@ import pytest
 import torch
 from torch import nn
 
-from rsoccer.train.network import perceptron
 from rsoccer.train.network.perceptron import Perceptron, PerceptronPass, uses_onednn
 
 
@@ -21,15 +20,6 @@ def new_perceptron(*sizes: int, dtype: torch.dtype = torch.float64) -> Perceptro
     for parameter in network.parameters():
         parameter.data = torch.randn(parameter.shape, generator=generator, dtype=dtype)
     return network
-
-
-@pytest.fixture(params=[False, True], ids=["mkl", "onednn"])
-def onednn(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> bool:
-    """Products in single precision by either library, whatever the processor has."""
-    if request.param and not hasattr(torch.ops.mkldnn, "_linear_pointwise"):
-        pytest.skip("this torch has no oneDNN")
-    monkeypatch.setattr(perceptron, "_ONEDNN_IS_FASTER", request.param)
-    return bool(request.param)
 
 
 @pytest.mark.parametrize("sizes", [(5, 2), (5, 7, 1), (5, 7, 6, 2), (5, 8, 8, 8, 3)])

@@ -25,6 +25,7 @@ def textbook_loss(model: ActorCritic, minibatch: Batch) -> torch.Tensor:
     return policy_loss + loss_gradient.VALUE_COEF * value_loss
 
 
+@pytest.mark.usefixtures("onednn")
 @pytest.mark.parametrize("weighted", [False, True])
 @pytest.mark.parametrize("state_size", [0, 3])
 @pytest.mark.parametrize("clip_range", [0.001, 0.2, 10.0])
@@ -48,6 +49,7 @@ def test_gradients_equal_those_of_autograd(
     assert low <= stats[1] <= high, "clipped samples"
 
 
+@pytest.mark.usefixtures("onednn")
 def test_threads_change_no_bit(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(loss_gradient, "SHARD", 7)
     ppo, batch = new_ppo()

@@ -30,7 +30,8 @@ pub(crate) use ball_contact::{BallPhase, BallRules, SqueezedBall};
 pub(crate) use contacts::{BallContact, Contacts, Partner, RobotContact};
 pub(crate) use shapes::Shape;
 
-/// Sub-steps of the solver in a tick. `cargo bench -p rsim-bench --bench solver` compares numbers.
+/// Sub-steps of the solver in a tick, of which the compact solver merges some.
+/// `cargo bench -p rsim-bench --bench solver` compares numbers.
 const SUB_STEPS: usize = 4;
 
 /// Friction of a wall against robots, averaged with the robot's own: that of robot against robot. No

@@ -211,7 +211,7 @@ impl World {
         self.state.engine.enable_contact_free_ticks(false);
     }
 
-    /// Sets the number of sub-steps of the solver in a tick, until the next [`World::place`] or
+    /// Sets the number of sub-steps of the solver in a tick, before any are merged, until the next [`World::place`] or
     /// [`World::restart`]: for the benchmark that compares numbers.
     pub fn set_sub_steps(&mut self, sub_steps: NonZeroUsize) {
         self.state.engine.set_sub_steps(sub_steps.get());

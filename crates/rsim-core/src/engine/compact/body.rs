@@ -60,7 +60,7 @@ impl SolverBody {
         PlacedOutline { outline, position: self.position, heading }
     }
 
-    /// Accelerates the body for `time` (s); as long as it touches nothing, it moves as if it gained its speed
+    /// Accelerates the body for `time` (s); with nothing within reach, it moves as if it gained its speed
     /// later by `lag` (s).
     pub(in crate::engine) fn accelerate(
         &mut self,
@@ -73,8 +73,8 @@ impl SolverBody {
         self.lag = lag;
     }
 
-    /// Notes that it touches another body or a wall, which a sub-step resolves at its start.
-    pub(super) fn touch(&mut self) {
+    /// Notes that another body or a wall is within reach, against which a sub-step corrects its speed at the start.
+    pub(super) fn come_within_reach(&mut self) {
         self.lag = 0.0;
     }
 

@@ -10,9 +10,9 @@ use super::pass::Pass;
 use super::two_points::solve_two;
 use crate::math::Vector;
 
-/// Difference of two separations by rounding, m: which of two points on a face is the nearer one must not turn
-/// the body.
-const EVEN: f32 = 1e-6;
+/// Difference below which separations of two points on a face count as equal, m. Otherwise rounding would turn the
+/// body.
+const ROUNDING_OF_SEPARATION: f32 = 1e-6;
 
 /// A contact point in the solver.
 #[derive(Debug, Clone, Copy, Default)]
@@ -138,11 +138,15 @@ impl Constraint {
         Impulses { normals, tangent: self.friction.impulse }
     }
 
+    /// Notes that the bodies are within each other's reach.
+    pub(super) fn note_reach(&self, bodies: &mut [SolverBody]) {
+        for body in [self.first, self.second] {
+            bodies[body].come_within_reach();
+        }
+    }
+
     /// Applies the impulses that the solution starts from.
     pub(super) fn warm_start(&mut self, bodies: &mut [SolverBody]) {
-        for body in [self.first, self.second] {
-            bodies[body].touch();
-        }
         let [one, two] = &self.points;
         let impulses = [one.impulse, two.impulse];
         if impulses[0] <= 0.0 && impulses[1] <= 0.0 {
@@ -213,13 +217,12 @@ impl Constraint {
         let [one, two] = &mut self.points;
         let old = [one.impulse, two.impulse];
         let is_idle = old[0] <= 0.0 && old[1] <= 0.0;
-        let [mut near, mut far] = [one.separation, two.separation];
-        if (far - near).abs() < EVEN {
-            near = 0.5 * (near + far);
-            far = near;
+        let mut separations = [one.separation, two.separation];
+        if (separations[1] - separations[0]).abs() < ROUNDING_OF_SEPARATION {
+            separations = [0.5 * (separations[0] + separations[1]); 2];
         }
-        let row = pass.row(relative.closing(one.levers), near);
-        let other = pass.row(relative.closing(two.levers), far);
+        let row = pass.row(relative.closing(one.levers), separations[0]);
+        let other = pass.row(relative.closing(two.levers), separations[1]);
         if is_idle && row.speed >= 0.0 && other.speed >= 0.0 {
             return None;
         }

@@ -2,7 +2,7 @@
 //!
 //! Each sub-step is a small tick: contacts are found anew on the paths of that sub-step, solved by
 //! sequential impulses with soft constraints, and relaxed, so that the push out of an overlap does not
-//! stay in the velocities. Impulses start from those of the last sub-step. Where all that can meet moves slowly,
+//! stay in the velocities. Impulses start from those of the last sub-step. Where robots that can meet move slowly,
 //! two sub-steps are solved as one.
 //!
 //! The result has the same bits on every platform: the solver adds, multiplies, divides, takes square
@@ -166,6 +166,7 @@ impl CompactScratch {
             links[index].is_constrained = is_constrained;
         }
         for index in constrained.iter() {
+            constraints[*index].note_reach(bodies);
             constraints[*index].warm_start(bodies);
         }
         for pass in 1..=MAX_PASSES {

@@ -12,11 +12,12 @@ const ALLOWED_DEPTH: f32 = 5e-6;
 const STIFFNESS: f32 = 140.0;
 
 /// Stiffness beyond a depth, m, at which robots that press do not lie: the largest that a sub-step of 2.5 ms
-/// resolves, by [`MAX_STIFFNESS`]. Without it robots in a crowd are deeper in each other than 1 mm.
+/// resolves, by [`MAX_STIFFNESS`]. Without it robots in the crowd of `tests/crowd.rs` come to 1.09 mm, with it to
+/// less than 1 mm.
 const DEEP: f32 = 2e-4;
 const DEEP_STIFFNESS: f32 = 400.0;
 
-/// Maximum stiffness by the rate of sub-steps.
+/// Maximum stiffness by the rate of sub-steps: those of 2.5 ms have all of [`DEEP_STIFFNESS`].
 const MAX_STIFFNESS: f32 = 1.0;
 
 /// Damping ratio: a push out of an overlap does not overshoot.
@@ -53,8 +54,8 @@ impl Pass {
         Self::springs(STIFFNESS, time)
     }
 
-    /// The same for contacts of the ball, which no row of robots presses: with the stiffness of robots, a push
-    /// through a squeezed ball is 2% weaker.
+    /// The same for contacts of the ball, which no row of robots presses: with 200 Hz, a push
+    /// through a squeezed ball was 2% weaker.
     pub(super) fn pushing_ball(time: f32) -> Self {
         Self::springs(DEEP_STIFFNESS, time)
     }
