@@ -81,6 +81,7 @@ class PerceptronPass:
         self._layers = network.linear()
         self._memory = PassMemory() if memory is None else memory
         self._activations: list[Tensor] = []
+        self._by_onednn = False
 
     @torch.no_grad()
     def outputs(self, inputs: Tensor) -> Tensor:
@@ -89,21 +90,9 @@ class PerceptronPass:
         Args:
             inputs: (n, inputs) of the first layer.
         """
-        self._activations, last = [inputs], self._layers[-1]
-        if uses_onednn(inputs):
-            for layer in self._layers:
-                kind = "none" if layer is last else "tanh"
-                hidden = self._activations[-1]
-                self._activations.append(_by_onednn(hidden, layer.weight, layer.bias, kind))
-            return self._activations[-1]
-        for index, layer in enumerate(self._layers):
-            hidden, weight = self._activations[-1], layer.weight.T
-            out = self._memory.matrix(f"layer {index}", len(inputs), len(layer.bias), layer.bias)
-            if layer is last:
-                torch.addmm(layer.bias, hidden, weight, out=out)
-            else:
-                _tanh_layer(layer.bias, hidden, weight, out)
-            self._activations.append(out)
+        self._activations, self._by_onednn = [inputs], uses_onednn(inputs)
+        for index in range(len(self._layers)):
+            self._activations.append(self._layer_outputs(index, self._activations[-1]))
         return self._activations[-1]
 
     @torch.no_grad()
@@ -111,45 +100,58 @@ class PerceptronPass:
         """Write the gradients of the parameters for the rows of the last `outputs`.
 
         It may be called once after `outputs`, and before any other pass in the same memory: it
-        may overwrite the hidden units.
+        overwrites the hidden units.
 
         Args:
             gradient: (n, outputs) gradient of the outputs of the last layer.
             out: a tensor for each parameter, in the order of `parameters`.
         """
-        if uses_onednn(gradient):
-            self._gradients_by_onednn(gradient, out)
-            return
-        for index in reversed(range(1, len(self._layers))):
-            hidden = self._activations[index]
-            torch.mm(gradient.T, hidden, out=out[2 * index])
-            torch.sum(gradient, 0, out=out[2 * index + 1])
-            rows, units = hidden.shape
-            by_hidden = self._memory.matrix("gradient", rows, units, hidden)
-            torch.mm(gradient, self._layers[index].weight, out=by_hidden)
-            # Hidden units are of no more use: their memory gets the gradient of the layer below.
-            torch.ops.aten.tanh_backward.grad_input(by_hidden, hidden, grad_input=hidden)
-            gradient = hidden
-        # Transposed: MKL takes twice as long for a product with a number of columns that is not a
-        # multiple of 8, as that of most observations.
-        inputs = self._activations[0]
-        by_weight = self._memory.matrix("weight", inputs.shape[1], gradient.shape[1], gradient)
-        torch.mm(inputs.T, gradient, out=by_weight)
-        out[0].copy_(by_weight.T)
-        torch.sum(gradient, 0, out=out[1])
-        self._activations = []
-
-    def _gradients_by_onednn(self, gradient: Tensor, out: Sequence[Tensor]) -> None:
-        """Write the gradients by products of oneDNN."""
         for index in reversed(range(len(self._layers))):
-            hidden = self._activations[index]
-            out[2 * index].copy_(_by_onednn(gradient.T, hidden.T))
+            self._write_weight_gradient(index, gradient, out[2 * index])
             torch.sum(gradient, 0, out=out[2 * index + 1])
             if index:
-                by_hidden = _by_onednn(gradient, self._layers[index].weight.T)
-                torch.ops.aten.tanh_backward.grad_input(by_hidden, hidden, grad_input=by_hidden)
-                gradient = by_hidden
+                gradient = self._gradient_below(index, gradient)
         self._activations = []
+
+    def _layer_outputs(self, index: int, inputs: Tensor) -> Tensor:
+        """Return the outputs of a layer, with tanh but for the last one."""
+        layer, is_last = self._layers[index], index == len(self._layers) - 1
+        if self._by_onednn:
+            return _by_onednn(inputs, layer.weight, layer.bias, "none" if is_last else "tanh")
+        out = self._memory.matrix(f"layer {index}", len(inputs), len(layer.bias), layer.bias)
+        if is_last:
+            torch.addmm(layer.bias, inputs, layer.weight.T, out=out)
+        else:
+            _tanh_layer(layer.bias, inputs, layer.weight.T, out)
+        return out
+
+    def _write_weight_gradient(self, index: int, gradient: Tensor, out: Tensor) -> None:
+        """Write the gradient of a layer's weights from that of its outputs before the tanh."""
+        inputs = self._activations[index]
+        if self._by_onednn:
+            out.copy_(_by_onednn(gradient.T, inputs.T))
+        elif index:
+            torch.mm(gradient.T, inputs, out=out)
+        else:
+            # Transposed: MKL takes twice as long for a product with a number of columns that is not
+            # a multiple of 8, as that of most observations.
+            shape = inputs.shape[1], gradient.shape[1]
+            by_weight = self._memory.matrix("weight", *shape, gradient)
+            torch.mm(inputs.T, gradient, out=by_weight)
+            out.copy_(by_weight.T)
+
+    def _gradient_below(self, index: int, gradient: Tensor) -> Tensor:
+        """Return the gradient of the outputs of the layer below, before their tanh."""
+        hidden, weight = self._activations[index], self._layers[index].weight
+        if self._by_onednn:
+            by_hidden = _by_onednn(gradient, weight.T)
+        else:
+            rows, units = hidden.shape
+            by_hidden = self._memory.matrix("gradient", rows, units, hidden)
+            torch.mm(gradient, weight, out=by_hidden)
+        # Hidden units are of no more use: their memory gets the gradient of the layer below.
+        torch.ops.aten.tanh_backward.grad_input(by_hidden, hidden, grad_input=hidden)
+        return hidden
 
 
 def uses_onednn(numbers: Tensor) -> bool:
