@@ -83,13 +83,7 @@ impl CompactSolver {
         contacts: &mut Contacts,
     ) -> bool {
         scratch.read(bodies, rules.parameters, near.pairs);
-        let step = SubStep::of(
-            sub_steps,
-            &scratch.bodies,
-            near.pairs,
-            near.fastest,
-            rules.squeezed.is_some(),
-        );
+        let step = SubStep::of(sub_steps, &scratch.bodies, near, rules.squeezed.is_some());
         self.link(bodies, near.pairs, rules, step.time(), scratch);
         let jammed = rules.squeezed.is_some_and(|squeezed| squeezed.jammed);
         let min_passes = if jammed { MIN_PASSES_JAMMED } else { MIN_PASSES };

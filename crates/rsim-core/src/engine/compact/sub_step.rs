@@ -1,5 +1,6 @@
 //! Length and settings of the solver's sub-steps in a tick.
 
+use super::NearBodies;
 use super::body::SolverBody;
 use super::manifold::Window;
 use super::pass::Pass;
@@ -38,13 +39,12 @@ pub(super) struct SubStep {
 }
 
 impl SubStep {
-    /// Settings for a tick of `unmerged` sub-steps in which `pairs` of `bodies` can meet. `fastest` is the speed
-    /// that a push can give a robot at rest, m/s; `squeezed` says whether the ball is squeezed.
+    /// Settings for a tick of `unmerged` sub-steps in which those of `bodies` that are `near` can meet. `squeezed`
+    /// says whether the ball is squeezed.
     pub(super) fn of(
         unmerged: SubSteps,
         bodies: &[SolverBody],
-        pairs: &[Pair],
-        fastest: f32,
+        near: NearBodies,
         squeezed: bool,
     ) -> Self {
         let merged = SubSteps {
@@ -54,10 +54,10 @@ impl SubStep {
         };
         let may_merge = unmerged.count % MERGED == 0
             && merged.time <= MAX_MERGED_TIME
-            && pairs.iter().all(|pair| is_slow(pair, bodies, merged.time, squeezed));
+            && near.pairs.iter().all(|pair| is_slow(pair, bodies, merged.time, squeezed));
         let SubSteps { time, count } = if may_merge { merged } else { unmerged };
         Self {
-            window: Window { time, reach: 2.0 * fastest * time },
+            window: Window { time, reach: 2.0 * near.fastest * time },
             pushing: Pass::pushing(time),
             pushing_ball: Pass::pushing_ball(time),
             relaxing: Pass::relaxing(time),
@@ -116,7 +116,8 @@ mod tests {
         let ball = Solid { body: BALL, outline: Outline::Disc { radius: 0.02 } };
         let one = if body == BALL { ball } else { solid(body) };
         let pair = Pair { one, other: Other::Body(solid(2)), margin: 0.0 };
-        SubStep::of(SubSteps { time: TIME, count }, &bodies, &[pair], 1.0, squeezed)
+        let near = NearBodies { pairs: &[pair], fastest: 1.0 };
+        SubStep::of(SubSteps { time: TIME, count }, &bodies, near, squeezed)
     }
 
     fn count(body: usize, velocity: Vector, spin: f32, squeezed: bool) -> usize {
@@ -147,7 +148,15 @@ mod tests {
 
     #[test]
     fn merged_sub_steps_are_at_most_two_and_a_half_milliseconds_long() {
-        let count = |time| SubStep::of(SubSteps { time, count: 2 }, &[], &[], 1.0, false).count;
+        let count = |time| {
+            SubStep::of(
+                SubSteps { time, count: 2 },
+                &[],
+                NearBodies { pairs: &[], fastest: 1.0 },
+                false,
+            )
+            .count
+        };
         assert_eq!([5e-4, 1.25e-3, 2.5e-3].map(count), [1, 1, 2]);
     }
 
