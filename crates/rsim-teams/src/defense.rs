@@ -52,7 +52,7 @@ fn add_beside(s: &Situation, ball: Vector, margin: f32, count: usize, jobs: &mut
 /// Adds marks of the most dangerous opponents, at most `count`. Returns their number.
 pub(crate) fn add_marks(s: &Situation, count: usize, jobs: &mut Jobs) -> usize {
     let goal = s.pitch.own_goal();
-    let at_ball = s.others.first(|_| true).map(|(index, _)| index);
+    let at_ball = s.rival().map(|(index, _)| index);
     let reach = 2.0 * s.pitch.lines.half_length * s.tactics.marked_share;
     let mut added = 0;
     let mut marked = 0_u32;

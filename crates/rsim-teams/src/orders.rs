@@ -106,7 +106,7 @@ fn ball_order(s: &Situation, memory: &mut Memory, robot: &Player) -> Order {
     }
     let meeting = s.own.of(robot.index).unwrap_or_default();
     let to_ball = (meeting.place - robot.position).unit_or(robot.heading);
-    let rival = s.others.first(|_| true).map_or(f32::INFINITY, |(_, meeting)| meeting.time);
+    let rival = s.rival().map_or(f32::INFINITY, |(_, meeting)| meeting.time);
     let is_alone = s.view.own.len() == 1;
     if is_alone && rival + ALONE < meeting.time {
         return keeper::guard(s, robot);
@@ -131,4 +131,28 @@ fn block_place(s: &Situation) -> Vector {
     let ball = s.ball();
     let to_goal = (s.pitch.own_goal() - ball).unit_or(Vector::new(-1.0, 0.0));
     ball + to_goal * BLOCK_DISTANCE
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{PLAY, Scene};
+
+    #[test]
+    fn a_lone_robot_fetches_the_ball_that_a_nearer_opponent_may_not_touch() {
+        let mut scene = Scene::new(1, 1);
+        scene.robot(0, [-2.0, 0.0]);
+        scene.robot(1, [1.3, 0.0]);
+        scene.ball([1.0, 0.0], [0.0, 0.0]);
+        let target = |barred_opponent| {
+            scene.situation(PLAY, |s| {
+                let situation = Situation { barred_opponent, path: s.path.clone(), ..*s };
+                let mut memory = Memory::new(1);
+                ball_order(&situation, &mut memory, &s.view.own[0]).target
+            })
+        };
+        let ball = Vector::new(1.0, 0.0);
+        assert!(target(Some(0)).distance(ball) < 0.5, "{:?}", target(Some(0)));
+        assert!(target(None).distance(ball) > 2.0, "it guards its goal: {:?}", target(None));
+    }
 }

@@ -25,7 +25,7 @@ const STUCK_HEADING: f32 = -0.3;
 /// Gap before the mouth at which a robot still controls the ball, m.
 const CONTROL_GAP: f32 = 0.025;
 /// Distance to the side at which it does, m.
-const CONTROL_ASIDE: f32 = 0.035;
+const CONTROL_ASIDE: f32 = 0.03;
 /// Gap between hull and ball at which a robot still has it, m.
 const GAP: f32 = 0.03;
 
@@ -109,13 +109,16 @@ fn remembered(memory: &TeamMemory) -> Kick {
 /// Order of a robot that has the ball.
 pub(crate) fn play(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Order {
     let ball = s.ball();
-    let chosen = chosen(s, memory, robot.index, || aim::best_kick(s, ball, robot.index));
-    let kick = aim::with_error(s, chosen, ball, robot.index);
     let waited = memory.carry_steps as f32 * s.config.time_step;
-    let is_pressed = s.nearest_opponent(ball) < s.tactics.pressed_distance;
-    let hurry = if is_pressed { 0.5 } else { 1.0 };
     let is_keeper = robot.index == KEEPER;
     let patience = if is_keeper { KEEPER_PATIENCE } else { s.tactics.patience };
+    let best = || aim::best_kick(s, ball, robot.index);
+    // The ball moves as the robot turns, and other kicks become better: it could turn to and fro forever.
+    let choice = if waited > patience { settled } else { chosen };
+    let chosen = choice(s, memory, robot.index, best);
+    let kick = aim::with_error(s, chosen, ball, robot.index);
+    let is_pressed = s.nearest_opponent(ball) < s.tactics.pressed_distance;
+    let hurry = if is_pressed { 0.5 } else { 1.0 };
     let is_good = kick.value >= s.tactics.good_value * hurry * (1.0 - waited / patience);
     let way = ball.distance(memory.carry_start);
     let facing = kick.at - ball;
@@ -129,6 +132,8 @@ pub(crate) fn play(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Or
     }
     if !is_good && !is_keeper {
         order.target = dribble_target(s, memory, robot);
+    } else if !robot.has_ball {
+        order.target = caught_up(s, robot);
     }
     if is_good || is_pressed {
         kicking::release(s, memory, robot, &kick, &mut order);
@@ -140,6 +145,13 @@ pub(crate) fn play(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Or
         order.kick = kicking::command(s, &ahead, 0.0);
     }
     order
+}
+
+/// Place at which a robot has the ball in the middle of its mouth again.
+fn caught_up(s: &Situation, robot: &Player) -> Vector {
+    let own = (s.ball() - robot.position).seen_from(robot.heading);
+    let ahead = (own.x - s.config.mouth()).max(0.0);
+    robot.position + robot.heading * ahead + robot.heading.left() * own.y
 }
 
 /// Angular velocity at which the ball stays in the mouth of a robot that drives, rad/s.
@@ -213,6 +225,45 @@ mod tests {
         assert!(order(&mut scene, 0.3).dribbler > 0.0);
         let far = order(&mut scene, 0.85);
         assert!(far.dribbler < 0.5 && far.kick[0] > 0.0, "{far:?}");
+    }
+
+    #[test]
+    fn a_robot_catches_up_with_a_ball_before_its_mouth() {
+        let mut scene = Scene::new(1, 1);
+        scene.robot(0, [0.0, 0.0]);
+        scene.robot(1, [0.3, 0.0]);
+        for (ball, expected) in [([0.11, 0.0], [0.017, 0.0]), ([0.11, -0.02], [0.017, -0.02])] {
+            scene.ball(ball, [0.0, 0.0]);
+            let mut memory = TeamMemory::new(1);
+            let order = scene.situation(PLAY, |s| {
+                follow(s, &mut memory);
+                memory.carry_steps = 200; // its patience is over: it makes any kick
+                assert!(controls(s, &s.view.own[0]), "{ball:?}");
+                play(s, &mut memory, &s.view.own[0])
+            });
+            let expected = Vector::new(expected[0], expected[1]);
+            assert!(order.target.distance(expected) < 1e-3, "{:?} for {ball:?}", order.target);
+        }
+    }
+
+    #[test]
+    fn a_robot_without_patience_keeps_its_choice() {
+        let mut scene = Scene::new(2, 1);
+        scene.ball([-0.093, 0.0], [0.0, 0.0]);
+        scene.robot(0, [-4.0, 0.0]);
+        scene.robot(1, [0.0, 0.0]);
+        scene.set(1, "cos", -1.0); // it has to turn before it kicks
+        scene.set(1, "infrared", 1.0);
+        let mut memory = TeamMemory::new(1);
+        let mut aim = |scene: &Scene, steps: i32| {
+            memory.carry_steps = steps;
+            scene.situation(PLAY, |s| play(s, &mut memory, &s.view.own[1]));
+            memory.aim
+        };
+        let first = aim(&scene, 0);
+        scene.robot(2, [1.0, 0.3 * first.y]); // an opponent in its way
+        assert!(aim(&scene, 200).distance(first) < 1e-6);
+        assert!(aim(&scene, 20).distance(first) > 0.05, "{first:?} was chosen anew");
     }
 
     #[test]

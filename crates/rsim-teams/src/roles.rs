@@ -60,7 +60,7 @@ pub(crate) fn follow(s: &Situation, memory: &mut TeamMemory) {
         meeting.map_or(f32::INFINITY, |(_, meeting)| meeting.time)
     };
     let own = time(s.own.first(|index| Some(index) != s.barred));
-    let others = time(s.others.first(|_| true));
+    let others = time(s.rival());
     let lead = if memory.attacks { s.tactics.attitude_time } else { -s.tactics.attitude_time };
     memory.attacks = match s.phase.mode {
         Mode::Play => memory.carrier.is_some() || memory.receiver.is_some() || own < others + lead,

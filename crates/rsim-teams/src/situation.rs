@@ -3,7 +3,7 @@
 use rsim_referee::Vector;
 
 use crate::config::TeamConfig;
-use crate::intercept::{Meetings, Pace};
+use crate::intercept::{Meeting, Meetings, Pace};
 use crate::phase::{Mode, Phase, Restart};
 use crate::pitch::Pitch;
 use crate::random::Random;
@@ -31,8 +31,10 @@ pub(crate) struct Situation<'a> {
     pub(crate) in_play: bool,
     /// Place where the ball has to be, m.
     pub(crate) place: Vector,
-    /// Robot that may not touch the ball.
+    /// Own robot that may not touch the ball.
     pub(crate) barred: Option<usize>,
+    /// Opponent that may not.
+    pub(crate) barred_opponent: Option<usize>,
     /// Path of the ball.
     pub(crate) path: BallPath,
     /// Meetings of the own robots with the ball.
@@ -55,6 +57,11 @@ impl<'a> Situation<'a> {
             Pace { speed: self.tactics.their_speed, acceleration: self.tactics.their_acceleration };
         self.own = Meetings::new(&self.view.own, &self.path, self.pitch, pace, reach);
         self.others = Meetings::new(&self.view.others, &self.path, self.pitch, theirs, reach);
+    }
+
+    /// The opponent that is first at the ball, of those that may touch it.
+    pub(crate) fn rival(&self) -> Option<(usize, Meeting)> {
+        self.others.first(|index| Some(index) != self.barred_opponent)
     }
 
     /// Greatest speed of the own robots, m/s.

@@ -159,9 +159,11 @@ impl ScriptedTeam {
         memory: &Memory,
         tactics: &'a Tactics,
     ) -> Situation<'a> {
-        let first = if team == Team::Blue { 0 } else { self.config.layout.team_size(Team::Blue) };
-        let size = self.config.layout.team_size(team);
-        let own_index = |robot: usize| robot.checked_sub(first).filter(|index| *index < size);
+        let barred = |of: Team| {
+            let first = if of == Team::Blue { 0 } else { self.config.layout.team_size(Team::Blue) };
+            let index = game.kick_taker?.checked_sub(first)?;
+            (index < self.config.layout.team_size(of)).then_some(index)
+        };
         let seconds = AIM_SECONDS / self.config.time_step;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // a count of seconds
         let counter = (memory.team.step as f32 / seconds) as u32;
@@ -175,7 +177,8 @@ impl ScriptedTeam {
             command_time: game.command_steps as f32 * self.config.time_step,
             in_play: game.in_play,
             place: game.designated_position * -team.own_side(),
-            barred: game.kick_taker.and_then(own_index),
+            barred: barred(team),
+            barred_opponent: barred(team.opponent()),
             path: BallPath::new(&view.ball, memory.team.kick_speed, &self.config.ball),
             own: Meetings::default(),
             others: Meetings::default(),

@@ -161,6 +161,7 @@ impl Scene {
             in_play: phase.mode == Mode::Play,
             place: view.ball.position,
             barred: None,
+            barred_opponent: None,
             path: BallPath::new(&view.ball, view.ball.velocity.length(), &self.config.ball),
             own: Meetings::default(),
             others: Meetings::default(),

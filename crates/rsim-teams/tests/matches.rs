@@ -72,10 +72,14 @@ fn teams_of_all_sizes_play() {
     let large = SimConfig { field: Field::SSL_A, ..SimConfig::ssl(11, 11) };
     for config in [SimConfig::ssl(1, 1), SimConfig::ssl(2, 3), SimConfig::ssl(6, 1), large] {
         let sizes = (config.blue.len(), config.yellow.len());
-        let mut arena = Arena::new(config, [1.0, 1.0], 20.0, Placement::Teleport, 5);
-        (0..1200).for_each(|_| arena.step());
-        let lost = arena.counts.of("NO_PROGRESS_IN_GAME");
-        assert_eq!(lost, 0, "{sizes:?}: somebody plays the ball: {:?}", arena.counts.events);
-        assert!(arena.counts.in_play > 200, "{sizes:?}: {:?}", arena.counts);
+        let seeds = if sizes.0 > 6 { 2 } else { 20 };
+        let mut stalls = 0;
+        for seed in 0..seeds {
+            let mut arena = Arena::new(config.clone(), [1.0, 1.0], 20.0, Placement::Teleport, seed);
+            (0..1200).for_each(|_| arena.step());
+            stalls += arena.counts.of("NO_PROGRESS_IN_GAME") / 2; // an event of both teams
+            assert!(arena.counts.in_play > 200, "{sizes:?}: {:?}", arena.counts);
+        }
+        assert!(10 * stalls <= seeds, "{sizes:?}: nobody plays the ball, {stalls} times");
     }
 }
