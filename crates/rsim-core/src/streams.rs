@@ -36,6 +36,15 @@ pub fn units(word: u64) -> [f32; 2] {
     [(whole(word >> 40) + 1.0) * UNIT, whole(word >> 8 & 0xFF_FFFF) * UNIT]
 }
 
+/// Two numbers of the standard normal distribution of a word, by the transform of Box and Muller (Annals of Mathematical
+/// Statistics 29(2), 1958).
+pub fn normals(word: u64) -> [f32; 2] {
+    let [radius, angle] = units(word);
+    let radius = libm::sqrtf(-2.0 * libm::logf(radius));
+    let (sin, cos) = libm::sincosf(std::f32::consts::TAU * angle);
+    [radius * cos, radius * sin]
+}
+
 #[expect(clippy::cast_precision_loss, reason = "24 bits fit exactly")]
 fn whole(bits: u64) -> f32 {
     bits as f32

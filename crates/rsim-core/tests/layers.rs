@@ -19,7 +19,8 @@ const LAYERS: &[&[&str]] = &[
     &["forecast"],
     &["engine"],
     &["state"],
-    &["tick", "senses"],
+    &["tick"],
+    &["senses"],
     &["world"],
     &["scenes"],
 ];

@@ -1,7 +1,7 @@
 //! A network that plays a team: stacked observations, held actions, noise.
 
 use rsim_core::SimConfig;
-use rsim_core::streams::{units, words};
+use rsim_core::streams::{normals, words};
 
 use crate::area_shield::AreaShield;
 use crate::error::MatchError;
@@ -161,10 +161,9 @@ impl Player {
     }
 }
 
-/// A normal number of a word (Box and Muller, 1958).
+/// A number of the standard normal distribution of a word.
 fn normal(word: u64) -> f32 {
-    let [radius, angle] = units(word);
-    libm::sqrtf(-2.0 * libm::logf(radius)) * libm::cosf(std::f32::consts::TAU * angle)
+    normals(word)[0]
 }
 
 #[cfg(test)]

@@ -1,7 +1,6 @@
 //! Break beam, kicker and dribbler of a robot, as they act on the ball.
 
-use serde::{Deserialize, Serialize};
-
+use crate::ball::kicker::Kicker;
 use crate::ball::rolling::GroundMotion;
 use crate::ball::state::BallState;
 use crate::columns::MAX_COMMAND;
@@ -13,20 +12,6 @@ use crate::models::robot::RobotModel;
 
 /// Rate at which the dribbler centers the ball in the mouth, 1/s.
 const CENTERING_RATE: f32 = 20.0;
-
-/// Errors of a kicker.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Kicker {
-    /// Factor on the speed.
-    pub(crate) gain: f32,
-    /// Direction in the robot's frame, a unit vector.
-    pub(crate) direction: Vector,
-}
-
-impl Kicker {
-    /// A kicker that obeys exactly.
-    pub(crate) const EXACT: Self = Self { gain: 1.0, direction: Vector::X };
-}
 
 /// A ball in a robot's mouth.
 pub(crate) struct HeldBall<'a> {

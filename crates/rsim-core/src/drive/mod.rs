@@ -58,10 +58,10 @@ impl WheelErrors<'_> {
     /// Speeds of wheels that are to turn at `speeds` and turn at up to `most` with a full battery, rad/s. A robot whose
     /// fastest wheel is limited goes the same way more slowly.
     fn turn<const N: usize>(self, speeds: [Lanes; N], radius: Lanes, most: Lanes) -> [Lanes; N] {
-        let dead_zone = Lanes::splat(self.dead_zone) / radius;
+        let dead_zone = Lanes::splat(self.dead_zone);
         let slower = saturation_factor(&speeds, Lanes::splat(self.battery) * most);
         std::array::from_fn(|wheel| {
-            let stands = speeds[wheel].abs().simd_lt(dead_zone);
+            let stands = (speeds[wheel] * radius).abs().simd_lt(dead_zone);
             (speeds[wheel] * (self.gains[wheel] * slower)) & !stands
         })
     }
@@ -142,8 +142,10 @@ fn mounted<'a, D: 'a, W>(
 pub(crate) struct BlockCommands([Lanes; MAX_COLUMNS]);
 
 impl BlockCommands {
-    /// Commands to stand still.
-    pub(crate) const NONE: Self = Self([Lanes::ZERO; MAX_COLUMNS]);
+    /// The first column.
+    pub(crate) fn first(&self) -> &Lanes {
+        &self.0[0]
+    }
 
     /// Reads the commands of block `block` from rows of `columns` numbers, one row per robot.
     pub(crate) fn read(commands: &[f32], columns: usize, block: usize) -> Self {

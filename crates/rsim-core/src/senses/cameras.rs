@@ -14,7 +14,7 @@ use crate::senses::detections::{BallMotion, DetectedBall, DetectedBlock, Detecte
 use crate::senses::exposed::{Exposed, ExposureId, Film};
 use crate::senses::fetch::Fetched;
 use crate::senses::frames::Frames;
-use crate::senses::random::{Draws, Purpose};
+use crate::senses::random::{Draws, PoseNoise, Purpose};
 use crate::senses::visibility::{Lens, Obstacle};
 use crate::state::State;
 
@@ -28,8 +28,9 @@ pub(super) struct Cameras {
     phase: f64,
     /// Number of exposures.
     exposures: u64,
-    /// Time of the next exposure, s.
+    /// Time of the next exposure, s, and the number of ticks at whose end it has come.
     next: f64,
+    due: u64,
 }
 
 impl Cameras {
@@ -80,6 +81,16 @@ fn parts(size: f32, count: f32, overlap: f32) -> Vec<Part> {
     (0..count).map(part).collect()
 }
 
+/// Number of ticks of a length (s) until a time (s) since the senses began.
+fn ticks_until(time: f64, tick: f32) -> u64 {
+    let ticks = (time - ROUNDING) / f64::from(tick);
+    #[expect(clippy::cast_possible_truncation, reason = "no match has 2^52 ticks")]
+    let begun = ticks as i64;
+    #[expect(clippy::cast_precision_loss, reason = "no match has 2^52 ticks")]
+    let is_whole = begun as f64 >= ticks;
+    u64::try_from(begun + i64::from(!is_whole)).unwrap_or(0)
+}
+
 /// Tolerance of times, s: far below a tick, and far above the rounding of an hour.
 pub(super) const ROUNDING: f64 = 1e-7;
 
@@ -97,7 +108,13 @@ impl Cameras {
         // The state at the start is known; the first frame shows a later one.
         let phase = if phase <= ROUNDING { phase + period } else { phase };
         let all = Camera::all(config, sensing, draws);
-        Self { all, period, phase, exposures: 0, next: phase }
+        let due = ticks_until(phase, config.tick);
+        Self { all, period, phase, exposures: 0, next: phase, due }
+    }
+
+    /// Number of ticks at whose end the next frame is exposed.
+    pub(super) fn due(&self) -> u64 {
+        self.due
     }
 
     /// Time between exposures, s.
@@ -107,8 +124,14 @@ impl Cameras {
         period
     }
 
-    /// Exposes the frames of the tick that ended at `now` (s). `key` is that of the random numbers.
-    pub(super) fn expose(&mut self, now: f64, key: u64, state: &State, film: &mut Film) {
+    /// Exposes the frames of the tick of length `tick` (s) that ended at `now` (s). `key` is that of the random numbers.
+    pub(super) fn expose(
+        &mut self,
+        (now, tick): (f64, f32),
+        key: u64,
+        state: &State,
+        film: &mut Film,
+    ) {
         while self.next <= now + ROUNDING {
             #[expect(clippy::cast_possible_truncation, reason = "less than a tick")]
             let age = (now - self.next).max(0.0) as f32;
@@ -118,6 +141,7 @@ impl Cameras {
             let exposures = self.exposures as f64;
             self.next = self.phase + self.period * exposures;
         }
+        self.due = ticks_until(self.next, tick);
     }
 
     /// Adds the frames of the step that ended: what the cameras detect in its exposures.
@@ -174,7 +198,8 @@ impl Cameras {
                 let camera = nearest(motion.position);
                 detected.set(lane, &camera.detect_robot(index, &motion, sensing, draws, false));
             }
-            frames.add_block(detected, Some(exposed.velocities(block)));
+            frames.blocks()[block] = detected;
+            frames.add_velocities(exposed.velocities(block));
         }
         frames.end_frame(now, now);
     }
@@ -191,19 +216,22 @@ fn add_robots(
     let mut of_ball = Vector::ZERO;
     let mut deviations = [sensing.robot_position_noise; LANES];
     deviations[BALL] = sensing.ball_position_noise;
-    let has_motions = knows_motions(sensing);
+    let blocks = frames.blocks();
     for (block, true_motion) in exposed.motions().iter().enumerate() {
-        let noise = draws.normal_vectors(Lanes::from(deviations));
+        let PoseNoise { place, turn } = draws.poses(Lanes::from(deviations), sensing.heading_noise);
         if block == 0 {
-            of_ball = noise.get(BALL);
+            of_ball = place.get(BALL);
             deviations[BALL] = sensing.robot_position_noise;
         }
-        let turned = draws.normal_lanes(sensing.heading_noise);
-        let position = true_motion.position + noise;
+        let position = true_motion.position + place;
         let heading = true_motion.heading;
-        let heading = heading + heading.perp() * turned;
-        let detected = DetectedBlock { position, heading, ..DetectedBlock::NONE };
-        frames.add_block(detected, has_motions.then(|| exposed.velocities(block)));
+        let heading = heading + heading.perp() * turn;
+        blocks[block] = DetectedBlock { position, heading, ..DetectedBlock::NONE };
+    }
+    if knows_motions(sensing) {
+        for block in 0..exposed.motions().len() {
+            frames.add_velocities(exposed.velocities(block));
+        }
     }
     of_ball
 }
@@ -272,16 +300,18 @@ impl Camera {
         let missing = draws.which(sensing.missing_robots, robots);
         let misread = draws.which(sensing.misread_headings, robots);
         let ghosts = draws.which(ghost, robots);
-        let (count, on_field) = (exposed.motions().len(), exposed.robots_on_field());
+        let on_field = exposed.robots_on_field();
         for (block, motions) in exposed.motions().iter().enumerate() {
             let inside = self.sees(motions.position).to_bitmask();
             let there = lanes_of_robots(on_field, block);
             #[expect(clippy::cast_possible_truncation, reason = "four bits")]
             let inside = inside as u8 & there;
             let seen = inside & !lanes_of_robots(missing, block);
-            let detected = &mut frames.last_blocks(count)[block];
+            let detected = &mut frames.blocks()[block];
             let (first, again) = (seen & !detected.bodies, seen & detected.bodies);
-            self.add_first(detected, first);
+            if first != 0 {
+                self.add_first(detected, first);
+            }
             for lane in set_bits((first & lanes_of_robots(misread, block)).into()) {
                 let heading = detected.heading.get(lane);
                 detected.heading.set(lane, misread_heading(heading, draws));

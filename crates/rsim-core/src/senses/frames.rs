@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::blocks::{place_of, robot, robot_at, set_bits};
 use crate::geometry::motion::Motion;
+use crate::senses::block_ring::BlockRing;
 use crate::senses::detections::{
     BallMotion, DetectedBall, DetectedBlock, DetectedRobot, Velocities,
 };
@@ -97,11 +98,11 @@ pub struct CameraFrame {
 /// Frames in the order of their arrival: those that arrived in the last control step, then those on their way.
 ///
 /// Detections of all frames follow each other, the oldest first: many matches have to fit into a processor's cache.
-#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Frames {
     ends: Vec<Ends>,
     balls: Vec<DetectedBall>,
-    blocks: Vec<DetectedBlock>,
+    blocks: BlockRing,
     again: Vec<DetectedRobot>,
     ball_motions: Vec<BallMotion>,
     velocities: Vec<Velocities>,
@@ -116,16 +117,30 @@ struct Ends {
     /// Time of the arrival, s.
     due: f64,
     balls: u32,
-    blocks: u32,
     again: u32,
 }
 
 impl Frames {
-    /// Fetches what all frames have.
+    /// No frames yet, of robots in a number of blocks.
+    pub(super) fn new(blocks: usize) -> Self {
+        Self {
+            ends: Vec::new(),
+            balls: Vec::new(),
+            blocks: BlockRing::new(blocks),
+            again: Vec::new(),
+            ball_motions: Vec::new(),
+            velocities: Vec::new(),
+            arrived: 0,
+        }
+    }
+
+    /// Fetches the times of all frames, what the next one to arrive has, and the place of the one to come.
     pub(super) fn fetch(&self, fetched: &mut Fetched) {
         self.ends.iter().for_each(|ends| fetched.number(ends.due.to_bits()));
         self.balls.iter().step_by(4).for_each(|ball| fetched.number(ball.z.to_bits().into()));
-        for block in &self.blocks {
+        let arrives = self.arrived < self.ends.len();
+        let arrives = if arrives { self.blocks.frame(self.arrived) } else { &[] };
+        for block in arrives.iter().chain(self.blocks.next_if_any()) {
             fetched.lanes(&block.position.x);
             fetched.lanes(&block.heading.y);
         }
@@ -134,12 +149,12 @@ impl Frames {
     /// Forgets the frames on their way.
     pub(super) fn forget_on_way(&mut self) {
         self.ends.truncate(self.arrived);
-        let [balls, blocks, again] = self.ends_of(self.arrived);
+        let [balls, again] = self.ends_of(self.arrived);
         self.balls.truncate(balls);
-        self.blocks.truncate(blocks);
+        self.blocks.truncate(self.arrived);
         self.again.truncate(again);
         self.ball_motions.truncate(balls);
-        self.velocities.truncate(blocks);
+        self.velocities.truncate(self.arrived * self.blocks.each());
     }
 
     /// Adds a frame that was exposed at `time` and arrives at `due`, s, but not before an earlier one: the detections
@@ -147,10 +162,10 @@ impl Frames {
     pub(super) fn end_frame(&mut self, time: f64, due: f64) {
         let on_way = &self.ends[self.arrived..];
         let due = on_way.last().map_or(due, |last| due.max(last.due));
-        let ends = [self.balls.len(), self.blocks.len(), self.again.len()];
         #[expect(clippy::cast_possible_truncation, reason = "detections of a second")]
-        let [balls, blocks, again] = ends.map(|end| end as u32);
-        self.ends.push(Ends { time, due, balls, blocks, again });
+        let [balls, again] = [self.balls.len(), self.again.len()].map(|end| end as u32);
+        self.ends.push(Ends { time, due, balls, again });
+        self.blocks.add();
     }
 
     /// Adds a ball.
@@ -159,16 +174,14 @@ impl Frames {
         self.ball_motions.extend(motion);
     }
 
-    /// Adds a block of robots.
-    pub(super) fn add_block(&mut self, block: DetectedBlock, velocities: Option<Velocities>) {
-        self.blocks.push(block);
-        self.velocities.extend(velocities);
+    /// Robots of the frame to come, by block. What is here means nothing before it is set.
+    pub(super) fn blocks(&mut self) -> &mut [DetectedBlock] {
+        self.blocks.next()
     }
 
-    /// The `count` blocks that were added last.
-    pub(super) fn last_blocks(&mut self, count: usize) -> &mut [DetectedBlock] {
-        let start = self.blocks.len() - count;
-        &mut self.blocks[start..]
+    /// Adds the velocities of a block of robots of the frame to come.
+    pub(super) fn add_velocities(&mut self, velocities: Velocities) {
+        self.velocities.push(velocities);
     }
 
     /// Adds a robot that another camera has detected.
@@ -181,20 +194,19 @@ impl Frames {
         if self.arrived == 0 {
             return;
         }
-        let [balls, blocks, again] = self.ends_of(self.arrived);
+        let [balls, again] = self.ends_of(self.arrived);
         remove_first(&mut self.ends, self.arrived);
-        self.arrived = 0;
         remove_first(&mut self.balls, balls);
-        remove_first(&mut self.blocks, blocks);
         remove_first(&mut self.again, again);
+        self.blocks.forget_first(self.arrived);
         // These are all there, or none.
         remove_first(&mut self.ball_motions, balls);
-        remove_first(&mut self.velocities, blocks);
+        remove_first(&mut self.velocities, self.arrived * self.blocks.each());
+        self.arrived = 0;
         #[expect(clippy::cast_possible_truncation, reason = "they were of this size")]
-        let [balls, blocks, again] = [balls, blocks, again].map(|end| end as u32);
+        let [balls, again] = [balls, again].map(|end| end as u32);
         for frame in &mut self.ends {
             frame.balls -= balls;
-            frame.blocks -= blocks;
             frame.again -= again;
         }
     }
@@ -216,19 +228,19 @@ impl Frames {
         self.ends.len().checked_sub(1).map(|last| self.frame(last))
     }
 
-    /// Ends of the detections of the first `count` frames: balls, blocks, and robots detected again.
-    fn ends_of(&self, count: usize) -> [usize; 3] {
+    /// Ends of the detections of the first `count` frames: balls, and robots detected again.
+    fn ends_of(&self, count: usize) -> [usize; 2] {
         let last = count.checked_sub(1).map(|last| self.ends[last]);
-        last.map_or([0; 3], |last| [last.balls, last.blocks, last.again].map(|end| end as usize))
+        last.map_or([0; 2], |last| [last.balls, last.again].map(|end| end as usize))
     }
 
     fn frame(&self, nth: usize) -> Frame<'_> {
-        let ([ball, block, again], [balls, blocks, agains]) =
-            (self.ends_of(nth), self.ends_of(nth + 1));
+        let ([ball, again], [balls, agains]) = (self.ends_of(nth), self.ends_of(nth + 1));
+        let [block, blocks] = [nth, nth + 1].map(|nth| nth * self.blocks.each());
         Frame {
             time: self.ends[nth].time,
             balls: &self.balls[ball..balls],
-            blocks: &self.blocks[block..blocks],
+            blocks: self.blocks.frame(nth),
             again: &self.again[again..agains],
             ball_motions: self.ball_motions.get(ball..balls).unwrap_or_default(),
             velocities: self.velocities.get(block..blocks).unwrap_or_default(),

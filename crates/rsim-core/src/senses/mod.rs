@@ -5,6 +5,7 @@
 //! numbers follow from its key and from counters.
 
 mod actuators;
+mod block_ring;
 mod cameras;
 mod detections;
 mod driven;
@@ -31,14 +32,12 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::ball::mouth::Kicker;
 use crate::body_parameters::BodyParameters;
-use crate::drive::BlockCommands;
 use crate::forecast::commands::CommandLog;
 use crate::forecast::{Knowledge, MAX_FORECAST};
 use crate::models::config::SimConfig;
 use crate::models::sensing::Sensing;
-use crate::senses::actuators::Actuators;
+use crate::senses::actuators::{Actuators, Heard};
 use crate::senses::driven::Orders;
 use crate::senses::exposed::Film;
 use crate::senses::fetch::Fetched;
@@ -48,7 +47,8 @@ use crate::senses::link::Link;
 use crate::senses::random::{Draws, Purpose};
 use crate::senses::reports::{Reported, Reports};
 use crate::senses::vision::Vision;
-use crate::state::State;
+use crate::state::{Setup, State};
+use crate::tick::StepCommands;
 
 /// Differs the keys of the teams' own cameras.
 const SECOND_TEAM: u64 = 0x9e37_79b9_7f4a_7c15;
@@ -64,6 +64,8 @@ pub(crate) struct Senses {
     ticks: u64,
     /// Ticks after which a robot that hears nothing stops; `None` for never.
     timeout: Option<u64>,
+    /// Ticks at whose end the next frame is exposed.
+    next_exposure: u64,
     /// Number of looks at a state that was placed.
     looks: u64,
     /// Vision systems that watch the field: one for both teams, or one for each of them.
@@ -95,10 +97,11 @@ impl Senses {
             visions.push(Vision::new(watched.config, &sensing, key, &mut draws));
         }
         let mut senses = Self {
+            next_exposure: next_exposure(&visions),
             visions,
             reports: Reports::new(watched.parameters, &sensing, &mut draws),
             link: Link::new(robots, columns),
-            actuators: Actuators::new(robots, columns, &sensing, &mut draws),
+            actuators: Actuators::new(robots, &sensing, &mut draws),
             sent: CommandLog::default(),
             timeout: timeout(&sensing, watched.config.tick),
             sensing,
@@ -127,6 +130,7 @@ impl Senses {
         }
         self.looks += 1;
         self.reports.begin(watched.state, watched.parameters);
+        self.actuators.begin();
     }
 
     /// Sends the commands of a control step.
@@ -142,46 +146,44 @@ impl Senses {
         self.link.send(self.ticks, config.tick, (&self.sensing, self.key), commands);
     }
 
-    /// Lets robots hear what arrives at the start of a tick. Returns whether any command has changed.
-    pub(crate) fn receive(&mut self, watched: Watched<'_>) -> bool {
-        let Some(change) = self.link.receive(self.ticks, self.timeout) else {
-            return false;
-        };
+    /// Lets robots hear what arrives at the start of a tick, and obey it.
+    pub(crate) fn receive(
+        &mut self,
+        setup: &Setup,
+        parameters: &BodyParameters,
+        state: &mut State,
+    ) {
+        let change = self.link.receive(self.ticks, self.timeout);
+        if change.is_none() && !self.actuators.are_stale() {
+            return;
+        }
         #[expect(clippy::cast_possible_truncation, reason = "battery time needs no more digits")]
-        let seconds = self.now(watched.config) as f32;
-        let random = (&*self.sensing, self.key);
-        self.actuators.hear(
-            self.link.commands(),
-            change.number,
+        let seconds = self.now(&setup.config) as f32;
+        let heard = Heard {
+            arrived: change.map(|change| change.number),
+            commands: self.link.commands(),
+            columns: setup.command_columns.max(1),
             seconds,
-            random,
-            watched.parameters,
-        );
-        true
+        };
+        self.actuators.hear(heard, (&self.sensing, self.key), parameters, state);
     }
 
-    /// The commands that the robots have heard, a row for each; kickers and dribblers that fail have none.
-    pub(crate) fn commands(&self) -> &[f32] {
-        self.actuators.commands()
-    }
-
-    /// Errors of the robots' kickers.
-    pub(crate) fn kickers(&self) -> &[Kicker] {
-        self.actuators.kickers()
-    }
-
-    /// The same for the wheels as they obey them, by block.
-    pub(crate) fn wheels(&self) -> &[BlockCommands] {
-        self.actuators.wheels()
+    /// Commands as the robots obey them.
+    pub(crate) fn obeyed(&self) -> &StepCommands {
+        self.actuators.obeyed()
     }
 
     /// Watches the state after a tick.
     pub(crate) fn watch(&mut self, watched: Watched<'_>, film: &mut Film) {
         self.ticks += 1;
-        let now = self.now(watched.config);
+        if self.ticks < self.next_exposure {
+            return;
+        }
+        let now = (self.now(watched.config), watched.config.tick);
         for vision in &mut self.visions {
             vision.expose(now, watched.state, film);
         }
+        self.next_exposure = next_exposure(&self.visions);
     }
 
     /// Ends a control step with the exposures of its ticks: robots report, and what has arrived is taken in. `models`
@@ -272,6 +274,11 @@ impl Senses {
 /// Numbers of the senses as teams take them to be, of a match with its `own`.
 fn expected<'a>(config: &'a SimConfig, own: &'a Sensing) -> &'a Sensing {
     config.sensing.as_ref().unwrap_or(own)
+}
+
+/// Ticks at whose end some cameras expose their next frame.
+fn next_exposure(visions: &[Vision]) -> u64 {
+    visions.iter().map(Vision::due).min().unwrap_or(u64::MAX)
 }
 
 /// Ticks after which a robot that hears nothing stops; `None` for never. `tick` is the length of one, s.

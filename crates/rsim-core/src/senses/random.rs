@@ -1,7 +1,7 @@
 //! Random numbers of senses: counter-based, so that no order of calls matters.
 
 use wide::bytemuck::cast;
-use wide::{i32x4, u32x4};
+use wide::{i32x4, u32x4, u64x2};
 
 use crate::blocks::{Lanes, VectorLanes, alternating_series};
 use crate::math::Vector;
@@ -27,7 +27,14 @@ pub(super) enum Purpose {
 pub(super) struct Draws {
     word: u64,
     /// Numbers of the standard normal distribution that were drawn with others.
-    spare: Option<Lanes>,
+    spare: Option<PoseNoise>,
+}
+
+/// Noise of the places and headings of four bodies.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PoseNoise {
+    pub(super) place: VectorLanes,
+    pub(super) turn: Lanes,
 }
 
 impl Draws {
@@ -37,7 +44,8 @@ impl Draws {
         Self { word: mixed(key.wrapping_add(STRIDE) ^ event), spare: None }
     }
 
-    fn next(&mut self) -> u64 {
+    /// A word of random bits.
+    pub(super) fn next(&mut self) -> u64 {
         self.word = self.word.wrapping_add(STRIDE);
         mixed(self.word)
     }
@@ -99,74 +107,85 @@ impl Draws {
             return Vector::ZERO;
         }
         let word = self.next();
-        deviation * standard_normals([word; 2]).get(0)
+        let [vectors] = standard_normals([[word; 2]]);
+        deviation * vectors.get(0)
     }
 
-    /// Vectors whose coordinates are of normal distributions with these standard deviations, for the bodies of a block.
-    /// Nothing is drawn if all are 0.
-    pub(super) fn normal_vectors(&mut self, deviations: Lanes) -> VectorLanes {
-        if deviations == Lanes::ZERO {
-            return VectorLanes::ZERO;
+    /// Normal numbers for the bodies of a block: of places with standard deviations for each, and of turns with one for
+    /// all. Nothing is drawn if all are 0.
+    pub(super) fn poses(&mut self, places: Lanes, turn: f32) -> PoseNoise {
+        if places == Lanes::ZERO && turn == 0.0 {
+            return PoseNoise { place: VectorLanes::ZERO, turn: Lanes::ZERO };
         }
-        self.standard_vectors() * deviations
+        let standard = self.spare.take().unwrap_or_else(|| self.two_poses());
+        PoseNoise { place: standard.place * places, turn: standard.turn * Lanes::splat(turn) }
+    }
+
+    /// Numbers of the standard normal distribution for a block. Those for one more are spare.
+    fn two_poses(&mut self) -> PoseNoise {
+        let words = std::array::from_fn(|_| [self.next(), self.next()]);
+        let [place, turns, other] = standard_normals(words);
+        self.spare = Some(PoseNoise { place: other, turn: turns.y });
+        PoseNoise { place, turn: turns.x }
     }
 
     /// Numbers of a normal distribution with this standard deviation for the bodies of a block. Nothing is drawn
     /// for 0.
     pub(super) fn normal_lanes(&mut self, deviation: f32) -> Lanes {
-        if deviation <= 0.0 {
-            return Lanes::ZERO;
-        }
-        let standard = self.spare.take().unwrap_or_else(|| {
-            let VectorLanes { x, y } = self.standard_vectors();
-            self.spare = Some(y);
-            x
-        });
-        Lanes::splat(deviation) * standard
-    }
-
-    fn standard_vectors(&mut self) -> VectorLanes {
-        standard_normals([self.next(), self.next()])
+        self.poses(Lanes::ZERO, deviation).turn
     }
 }
 
 /// Vectors whose coordinates are of the standard normal distribution, by the transform of Box and Muller (Annals of
 /// Mathematical Statistics 29(2), 1958): a length and a direction from 16 bits each. Both are by series, with errors of
 /// some hundred-thousandths. No length is above 4.86, as one in 130,000 would be.
-fn standard_normals(words: [u64; 2]) -> VectorLanes {
-    let whole = |shift: u32| {
-        #[expect(clippy::cast_possible_truncation, reason = "16 bits")]
-        let lowest = |word: u64| i32::from(word as u16);
-        let [one, other] = words.map(|word| word >> shift);
-        i32x4::from([one, one >> 32, other, other >> 32].map(lowest)).round_float()
-    };
+///
+/// Each step of the transform is done for all vectors: one alone waits for its step before.
+fn standard_normals<const N: usize>(words: [[u64; 2]; N]) -> [VectorLanes; N] {
+    let whole = |bits: u32x4| cast::<_, i32x4>(bits).round_float();
+    let halves: [u32x4; N] = words.map(|words| cast(u64x2::from(words)));
     // Between 0 and 1.
-    let uniform = (whole(0) + Lanes::HALF) * Lanes::splat(1.0 / 65_536.0);
-    let length = (Lanes::splat(-2.0) * logarithm(uniform)).sqrt();
+    let uniform = halves.map(|halves| {
+        (whole(halves & u32x4::splat(0xffff)) + Lanes::HALF) * Lanes::splat(1.0 / 65_536.0)
+    });
+    let squares = logarithms(uniform).map(|logarithm| logarithm * Lanes::splat(-2.0));
+    let lengths = squares.map(Lanes::sqrt);
     // From minus to plus a right angle; twice that is the direction.
-    let half_turn =
-        (whole(16) - Lanes::splat(32_768.0)) * Lanes::splat(std::f32::consts::PI / 65_536.0);
-    let square = half_turn * half_turn;
-    let sin = half_turn * alternating_series(square, [6.0, 20.0, 42.0, 72.0]);
-    let cos = alternating_series(square, [2.0, 12.0, 30.0, 56.0]);
-    let double = sin + sin;
-    VectorLanes { x: Lanes::ONE - double * sin, y: double * cos } * length
+    let half_turns = halves.map(|halves| {
+        (whole(halves >> 16) - Lanes::splat(32_768.0))
+            * Lanes::splat(std::f32::consts::PI / 65_536.0)
+    });
+    let directions = half_turns.map(|half_turn| {
+        let square = half_turn * half_turn;
+        let sin = half_turn * alternating_series(square, [6.0, 20.0, 42.0, 72.0]);
+        let cos = alternating_series(square, [2.0, 12.0, 30.0, 56.0]);
+        let double = sin + sin;
+        VectorLanes { x: Lanes::ONE - double * sin, y: double * cos }
+    });
+    std::array::from_fn(|nth| directions[nth] * lengths[nth])
 }
 
 /// Bits of 1.
 const ONE: u32 = 1.0_f32.to_bits();
 
-/// Logarithms of numbers above 0, up to 1, to 1.3e-5: those of 2 by their exponents, and a series of
-/// the hyperbolic tangent's inverse for the rest.
-fn logarithm(numbers: Lanes) -> Lanes {
-    let bits: u32x4 = cast(numbers);
-    let exponents: i32x4 = cast(bits >> 23);
-    let rest: Lanes = cast(bits & u32x4::splat((1 << 23) - 1) | u32x4::splat(ONE));
-    let tanh = (rest - Lanes::ONE) / (rest + Lanes::ONE);
-    let square = tanh * tanh;
-    let [third, fifth, seventh] = [1.0 / 3.0, 1.0 / 5.0, 1.0 / 7.0].map(Lanes::splat);
-    let series = tanh * (Lanes::ONE + square * (third + square * (fifth + square * seventh)));
-    (exponents - i32x4::splat(127)).round_float() * Lanes::LN_2 + series + series
+/// Logarithms of numbers above 0, up to 1, to 1.1e-5: those of 2 by their exponents, and for the rest from 1 to 2 a
+/// polynomial that is exact at both ends, so that no logarithm is above 0. Of all with its degree it has the least
+/// maximum error.
+fn logarithms<const N: usize>(numbers: [Lanes; N]) -> [Lanes; N] {
+    let bits: [u32x4; N] = numbers.map(cast);
+    let beyond = bits.map(|bits| {
+        let rest: Lanes = cast(bits & u32x4::splat((1 << 23) - 1) | u32x4::splat(ONE));
+        rest - Lanes::ONE
+    });
+    let [a, b, c, d] = [0.306_313_5, -0.185_194_6, 0.102_881_4, -0.031_294_89].map(Lanes::splat);
+    let rests = beyond.map(|x| {
+        let between = (a + b * x) + x * x * (c + d * x);
+        x * (Lanes::LN_2 + (Lanes::ONE - x) * between)
+    });
+    std::array::from_fn(|nth| {
+        let exponents: i32x4 = cast(bits[nth] >> 23);
+        (exponents - i32x4::splat(127)).round_float() * Lanes::LN_2 + rests[nth]
+    })
 }
 
 #[cfg(test)]
@@ -184,7 +203,7 @@ mod tests {
             (0..count / 16).flat_map(|_| draws.normal_lanes(1.0).to_array().map(f64::from)),
         );
         numbers.extend((0..count / 32).flat_map(|_| {
-            let VectorLanes { x, y } = draws.normal_vectors(Lanes::ONE);
+            let VectorLanes { x, y } = draws.poses(Lanes::ONE, 1.0).place;
             [x.to_array(), y.to_array()].concat().into_iter().map(f64::from)
         }));
         let mean_of =
@@ -217,13 +236,21 @@ mod tests {
     fn numbers_of_a_block_are_independent() {
         let mut draws = Draws::of(6, Purpose::Frame, 0);
         let count = 50_000_u16;
-        let mut products = [[0.0; LANES]; 4];
+        let mut products = [[0.0; LANES]; 7];
         for _ in 0..count {
-            let vectors = draws.normal_vectors(Lanes::ONE);
             // The second is what the first left over.
-            let [one, other] = [(); 2].map(|()| draws.normal_lanes(1.0));
-            let next = vectors.x.to_array().map(|x| x * vectors.x.as_array()[0]);
-            let all = [vectors.x * vectors.y, one * other, one * vectors.x, Lanes::from(next)];
+            let [one, other] = [(); 2].map(|()| draws.poses(Lanes::ONE, 1.0));
+            let VectorLanes { x, y } = one.place;
+            let next = x.to_array().map(|next| next * x.as_array()[0]);
+            let all = [
+                x * y,
+                x * one.turn,
+                x * other.place.x,
+                y * other.turn,
+                one.turn * other.turn,
+                other.place.y * other.turn,
+                Lanes::from(next),
+            ];
             for (sums, product) in products.iter_mut().zip(all) {
                 for (sum, product) in sums.iter_mut().zip(product.to_array()) {
                     *sum += f64::from(product) / f64::from(count);
@@ -231,8 +258,8 @@ mod tests {
             }
         }
         let bound = 5.0 / f64::from(count).sqrt();
-        assert!((products[3][0] - 1.0).abs() < 2.0 * bound, "{products:?}");
-        products[3][0] = 0.0;
+        assert!((products[6][0] - 1.0_f64).abs() < 2.0 * bound, "{products:?}");
+        products[6][0] = 0.0;
         assert!(products.as_flattened().iter().all(|mean| mean.abs() < bound), "{products:?}");
     }
 

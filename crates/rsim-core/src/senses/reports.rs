@@ -117,8 +117,10 @@ impl Reports {
         let alarms = draws.which_of(sensing.beam_false_alarms, parameters.mouths) & !cut;
         for (error, block) in self.gyroscope_errors.iter().zip(&state.bodies.blocks) {
             let mut motions = OwnMotions::of(&block.motion);
-            motions.velocity += draws.normal_vectors(Lanes::splat(sensing.odometry_noise));
-            motions.angular_velocity += *error + draws.normal_lanes(sensing.gyroscope_noise);
+            let odometry_noise = Lanes::splat(sensing.odometry_noise);
+            let noise = draws.poses(odometry_noise, sensing.gyroscope_noise);
+            motions.velocity += noise.place;
+            motions.angular_velocity += *error + noise.turn;
             self.queued.push(motions);
         }
         self.under_way.push(Report {

@@ -2,7 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::blocks::{LANES, Lanes, VectorLanes, mask_of_bits, set_bits, smaller};
+use crate::blocks::{
+    LANES, Lanes, VectorLanes, alternating_series, mask_of_bits, set_bits, smaller,
+};
 use crate::geometry::motion::Motion;
 use crate::geometry::motion_block::MotionBlock;
 use crate::math::Vector;
@@ -272,19 +274,18 @@ pub(super) fn unit(heading: Vector) -> Vector {
 const SERIES: f32 = 1.0;
 
 /// Headings turned by angles, rad, to a thousandth for the largest and far better for usual ones. Cosine and sine
-/// follow from the tangent of half the angle, which is a series; the length stays 1 by a step of Newton's method.
+/// are series; the length stays 1 by a step of Newton's method.
 fn turned(heading: VectorLanes, angle: Lanes) -> VectorLanes {
     let square = angle * angle;
-    let [half, twelfth, tenth] = [1.0 / 2.0, 1.0 / 12.0, 1.0 / 10.0].map(Lanes::splat);
-    let tangent = half * angle * (Lanes::ONE + square * twelfth * (Lanes::ONE + square * tenth));
-    let square_tangent = tangent * tangent;
-    let mut turn = VectorLanes { x: Lanes::ONE - square_tangent, y: tangent + tangent }
-        * (Lanes::ONE / (Lanes::ONE + square_tangent));
+    let mut turn = VectorLanes {
+        x: alternating_series(square, [2.0, 12.0, 30.0]),
+        y: angle * alternating_series(square, [6.0, 20.0]),
+    };
     for lane in set_bits(square.simd_gt(Lanes::splat(SERIES * SERIES)).to_bitmask().into()) {
         let (sin, cos) = libm::sincosf(angle.as_array()[lane]);
         turn.set(lane, Vector::new(cos, sin));
     }
-    let more = Lanes::splat(1.5) - half * heading.length_squared();
+    let more = Lanes::splat(1.5) - Lanes::HALF * heading.length_squared();
     heading.rotated_by(turn) * more
 }
 

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::blocks::blocks_of;
 use crate::models::config::SimConfig;
 use crate::models::sensing::Sensing;
 use crate::senses::Watched;
@@ -34,7 +35,7 @@ impl Vision {
         let tracker = Tracker::new(robots, sensing, period);
         let has_driven = sensing.forecast >= 0.5 && sensing.tracker >= 0.5;
         let driven = has_driven.then(|| Box::new(DrivenRobots::new(robots, sensing, period)));
-        Self { key, cameras, frames: Frames::default(), tracker, driven }
+        Self { key, cameras, frames: Frames::new(blocks_of(robots)), tracker, driven }
     }
 
     /// Fetches cameras, frames and tracker; what forecasts need besides is left out.
@@ -53,7 +54,7 @@ impl Vision {
         watched: Watched<'_>,
     ) {
         self.frames.forget_on_way();
-        let mut first = Frames::default();
+        let mut first = Frames::new(blocks_of(watched.config.n_robots()));
         self.cameras.look(now, sensing, draws, watched, &mut first);
         let Some(frame) = first.last() else { return };
         self.tracker.begin(frame);
@@ -62,9 +63,14 @@ impl Vision {
         }
     }
 
-    /// Exposes the frames that are due.
-    pub(super) fn expose(&mut self, now: f64, state: &State, film: &mut Film) {
+    /// Exposes the frames that are due at a time (s), the end of a tick of a length (s).
+    pub(super) fn expose(&mut self, now: (f64, f32), state: &State, film: &mut Film) {
         self.cameras.expose(now, self.key, state, film);
+    }
+
+    /// Number of ticks at whose end the next frame is exposed.
+    pub(super) fn due(&self) -> u64 {
+        self.cameras.due()
     }
 
     /// Takes in the frames that have arrived, with the break beams that are known to be cut and the commands that

@@ -1,49 +1,60 @@
 //! Commands of a control step, read once for all of its ticks.
 
-use crate::ball::mouth::Kicker;
-use crate::blocks::{lanes_of_robots, mask_of_bits, set_bits};
+use serde::{Deserialize, Serialize};
+
+use crate::ball::kicker::KickErrors;
+use crate::blocks::{Lanes, lanes_of_robots, mask_of_bits, set_bits};
 use crate::body_parameters::BodyParameters;
 use crate::columns::{OMNI_COLUMNS, OMNI_WHEELS_COLUMNS};
-use crate::drive::BlockCommands;
+use crate::drive::{BlockCommands, MAX_WHEELS, WheelErrors};
 use crate::models::robot::Drive;
 use crate::state::State;
 
 /// Commands of all robots for a control step.
-#[derive(Default)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct StepCommands {
     /// Commands of the wheels, by block.
-    pub(super) wheels: Vec<BlockCommands>,
+    wheels: Vec<BlockCommands>,
     /// Robots that are to kick or to dribble.
     pub(super) handling: Vec<HandlingCommand>,
+    /// Errors of the kicks.
+    pub(super) kick_errors: KickErrors,
 }
 
 /// The part of a command for kicker and dribbler.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(super) struct HandlingCommand {
-    /// Index of the robot.
-    pub(super) robot: usize,
     /// Speed of a kick along the floor, m/s.
     pub(super) kick: f32,
     /// Upward speed of a chip, m/s.
     pub(super) chip: f32,
     /// Speed of the dribbler by its maximum, 0 to 1.
     pub(super) dribbler: f32,
-    /// Errors of the kicker.
-    pub(super) kicker: Kicker,
+    /// Index of the robot.
+    pub(super) robot: u8,
 }
 
-/// Commands as robots hear them that do not obey exactly.
+/// How robots obey commands that do not obey exactly.
 #[derive(Clone, Copy)]
-pub(crate) struct Heard<'a> {
-    /// A row for each robot.
-    pub(crate) rows: &'a [f32],
-    /// Commands that the wheels obey, by block.
-    pub(crate) wheels: &'a [BlockCommands],
-    /// Errors of the kicker of each robot.
-    pub(crate) kickers: &'a [Kicker],
+pub(crate) struct CommandErrors<'a> {
+    /// Factors on the speeds of the wheels, by block.
+    pub(crate) gains: &'a [[Lanes; MAX_WHEELS]],
+    /// Speed below which a wheel stands, m/s at the rim.
+    pub(crate) dead_zone: f32,
+    /// Part of the maximum speeds that the battery leaves.
+    pub(crate) battery: f32,
+    /// Robots whose kickers fail, and those whose dribblers do, one bit each.
+    pub(crate) kick_failures: u64,
+    pub(crate) dribbler_failures: u64,
+    /// Errors of the kicks.
+    pub(crate) kick_errors: KickErrors,
 }
 
 impl StepCommands {
+    /// Of no robots.
+    pub(crate) const NONE: Self =
+        Self { wheels: Vec::new(), handling: Vec::new(), kick_errors: KickErrors::NONE };
+
     /// Reads the commands from rows of `columns` numbers, one row per robot, and sets the dribblers of
     /// `state`. Commands of absent robots are ignored.
     pub(crate) fn read(
@@ -53,9 +64,10 @@ impl StepCommands {
         commands: &[f32],
         columns: usize,
     ) {
-        let blocks = 0..parameters.wheels.len();
-        let wheels = blocks.map(|block| BlockCommands::read(commands, columns, block));
-        self.take(state, parameters, commands, columns, wheels);
+        self.read_wheels(parameters, commands, columns);
+        self.halt(state.absent);
+        self.read_handling(state, parameters, commands, columns, [0; 2]);
+        self.kick_errors = KickErrors::NONE;
     }
 
     /// The same for robots that do not obey exactly.
@@ -63,35 +75,51 @@ impl StepCommands {
         &mut self,
         state: &mut State,
         parameters: &BodyParameters,
-        heard: Heard<'_>,
+        commands: &[f32],
         columns: usize,
+        errors: CommandErrors<'_>,
     ) {
-        self.take(state, parameters, heard.rows, columns, heard.wheels.iter().copied());
-        for command in &mut self.handling {
-            command.kicker = heard.kickers[command.robot];
+        self.read_wheels(parameters, commands, columns);
+        let CommandErrors { dead_zone, battery, .. } = errors;
+        let blocks = self.wheels.iter_mut().zip(errors.gains).zip(&parameters.wheels);
+        for ((command, gains), wheels) in blocks {
+            command.obey(wheels, WheelErrors { gains, dead_zone, battery });
         }
+        self.halt(state.absent);
+        let failures = [errors.kick_failures, errors.dribbler_failures];
+        self.read_handling(state, parameters, commands, columns, failures);
+        self.kick_errors = errors.kick_errors;
     }
 
-    fn take(
+    /// Commands of the wheels, by block.
+    pub(crate) fn wheels(&self) -> &[BlockCommands] {
+        &self.wheels
+    }
+
+    fn read_wheels(&mut self, parameters: &BodyParameters, commands: &[f32], columns: usize) {
+        self.wheels.clear();
+        let blocks = 0..parameters.wheels.len();
+        self.wheels.extend(blocks.map(|block| BlockCommands::read(commands, columns, block)));
+    }
+
+    /// Reads the commands of kickers and dribblers, of which those of `failures` do nothing: robots whose kickers fail,
+    /// and those whose dribblers do, one bit each.
+    fn read_handling(
         &mut self,
         state: &mut State,
         parameters: &BodyParameters,
         commands: &[f32],
         columns: usize,
-        wheels: impl Iterator<Item = BlockCommands>,
+        failures: [u64; 2],
     ) {
-        self.wheels.clear();
-        self.wheels.extend(wheels);
-        if state.absent != 0 {
-            self.halt(state.absent);
-        }
         self.handling.clear();
         for index in set_bits(parameters.mouths & !state.absent) {
             let row = commands.get(index * columns..(index + 1) * columns).unwrap_or_default();
             let drive = &parameters.robots[index].model.drive;
-            let Some(command) = HandlingCommand::read(index, drive, row) else { continue };
+            let Some(mut command) = HandlingCommand::read(index, drive, row) else { continue };
+            command.fail(failures.map(|robots| robots >> index & 1 == 1));
             state.bodies.set_dribbling(index, command.dribbler);
-            if command.kicks() || command.dribbler > 0.0 {
+            if command.kick.max(command.chip).max(command.dribbler) > 0.0 {
                 self.handling.push(command);
             }
         }
@@ -99,6 +127,9 @@ impl StepCommands {
 
     /// Commands the wheels of `robots`, one bit each, to stand still.
     fn halt(&mut self, robots: u64) {
+        if robots == 0 {
+            return;
+        }
         for (block, commands) in self.wheels.iter_mut().enumerate() {
             commands.halt(mask_of_bits(lanes_of_robots(robots, block).into()));
         }
@@ -115,11 +146,22 @@ impl HandlingCommand {
             Drive::OmniWheels(_) => OMNI_WHEELS_COLUMNS.len() - 3,
         };
         let [kick, chip, dribbler] = [row[at], row[at + 1], row[at + 2]];
-        let dribbler = dribbler.clamp(0.0, 1.0);
-        Some(Self { robot, kick, chip, dribbler, kicker: Kicker::EXACT })
+        #[expect(clippy::cast_possible_truncation, reason = "at most 63 robots")]
+        let robot = robot as u8;
+        Some(Self { robot, kick, chip, dribbler: dribbler.clamp(0.0, 1.0) })
+    }
+
+    /// Takes out what a kicker or a dribbler that fails does not do.
+    fn fail(&mut self, [kicker, dribbler]: [bool; 2]) {
+        if kicker {
+            (self.kick, self.chip) = (0.0, 0.0);
+        }
+        if dribbler {
+            self.dribbler = 0.0;
+        }
     }
 
     pub(super) fn kicks(&self) -> bool {
-        self.kick > 0.0 || self.chip > 0.0
+        self.kick.max(self.chip) > 0.0
     }
 }

@@ -1,13 +1,14 @@
 //! Kicks and dribbling of robots that have the ball in their mouths, before the bodies move.
 
+use crate::ball::kicker::Kicker;
 use crate::ball::kicks::Kicks;
-use crate::ball::mouth::{HeldBall, Kicker};
+use crate::ball::mouth::HeldBall;
 use crate::ball::rolling::GroundMotion;
 use crate::blocks::{BALL, Lanes, larger, robot};
 use crate::body_parameters::BodyParameters;
 use crate::math::{Vec3, Vector};
 use crate::state::State;
-use crate::tick::commands::HandlingCommand;
+use crate::tick::commands::StepCommands;
 use crate::tick::flight::min_takeoff_speed;
 
 /// Sum of the effects of all robots on the ball in a tick.
@@ -28,13 +29,13 @@ struct Effect {
 pub(super) fn handle_ball(
     state: &mut State,
     parameters: &BodyParameters,
-    commands: &[HandlingCommand],
+    commands: &StepCommands,
     tick: f32,
 ) {
     for block in &mut state.bodies.blocks {
         block.recharging = larger(block.recharging - Lanes::splat(tick), Lanes::ZERO);
     }
-    if commands.is_empty() {
+    if commands.handling.is_empty() {
         return;
     }
     let ball = state.bodies.motion(BALL);
@@ -47,8 +48,8 @@ pub(super) fn handle_ball(
         kicked: false,
     };
     let mut handled = false;
-    for command in commands {
-        let index = command.robot;
+    for command in &commands.handling {
+        let index = usize::from(command.robot);
         let kicks = command.kicks() && state.bodies.recharging(index) == 0.0;
         if !kicks && (command.dribbler == 0.0 || !state.ball.is_down()) {
             continue;
@@ -63,7 +64,8 @@ pub(super) fn handle_ball(
         state.touches.add_ball(index);
         if kicks {
             state.bodies.set_recharging(index, mouth.kicker_recharge_time);
-            let kicker = Kicker { gain: command.kicker.gain * body.kick_gain, ..command.kicker };
+            let kicker = commands.kick_errors.of(index);
+            let kicker = Kicker { gain: kicker.gain * body.kick_gain, ..kicker };
             let after = held.kicked(ball.velocity, command.kick, command.chip, kicker);
             all.kicked = true;
             all.v_z = all.v_z.max(after.z);

@@ -20,7 +20,7 @@ use crate::state::{Setup, State};
 use crate::tick::bounce::FreeWay;
 use crate::tick::flight::Flight;
 use crate::tick::squeeze::Squeeze;
-pub(crate) use commands::{Heard, StepCommands};
+pub(crate) use commands::{CommandErrors, StepCommands};
 
 /// Version of the physics, raised whenever the same start and commands would give other states.
 pub const PHYSICS_VERSION: u32 = 9;
@@ -56,7 +56,7 @@ impl Tick<'_> {
         scratch: &mut Scratch,
     ) -> Result<(), NonFinite> {
         let length = self.setup.config.tick;
-        handling::handle_ball(state, self.parameters, &self.commands.handling, length);
+        handling::handle_ball(state, self.parameters, self.commands, length);
         self.drive_robots(state);
         let ball = state.bodies.motion(BALL);
         let before = ball.position.extend(state.ball.z);
@@ -203,7 +203,7 @@ impl Tick<'_> {
     }
 
     fn drive_robots(&self, state: &mut State) {
-        let wheels = self.parameters.wheels.iter().zip(&self.commands.wheels);
+        let wheels = self.parameters.wheels.iter().zip(self.commands.wheels());
         for (block, (wheels, commands)) in state.bodies.blocks.iter_mut().zip(wheels) {
             block.acceleration = block.drive.accelerate(wheels, commands, &block.motion);
         }

@@ -46,7 +46,7 @@ struct WorkingMemory {
 
 impl WorkingMemory {
     fn new() -> Self {
-        Self { engine: Scratch::new(), commands: StepCommands::default() }
+        Self { engine: Scratch::new(), commands: StepCommands::NONE }
     }
 }
 
@@ -197,7 +197,9 @@ impl World {
         let parameters = own_parameters.as_deref().unwrap_or(&setup.parameters);
         let moved = MEMORY.with_borrow_mut(|memory| match &mut self.senses {
             None => advance(memory, setup, parameters, state, commands),
-            Some(senses) => advance_sensed(memory, setup, parameters, state, (senses, film)),
+            Some(senses) => {
+                advance_sensed(&mut memory.engine, setup, parameters, state, (senses, film))
+            }
         });
         state.own_parameters = own_parameters;
         self.state.broken = moved.and_then(|()| self.state.check_finite()).is_err();

@@ -3,15 +3,15 @@
 use std::sync::Arc;
 
 use crate::body_parameters::BodyParameters;
-use crate::engine::NonFinite;
+use crate::engine::{NonFinite, Scratch};
 use crate::forecast::Knowledge;
 use crate::models::sensing::Sensing;
 use crate::senses::exposed::Film;
 use crate::senses::frames::CameraFrame;
 use crate::senses::{Senses, Watched};
 use crate::state::{Setup, State};
-use crate::tick::{Heard, Tick};
-use crate::world::{WorkingMemory, World};
+use crate::tick::Tick;
+use crate::world::World;
 
 impl World {
     /// Begins senses anew. `key` makes their errors the match's own.
@@ -82,23 +82,16 @@ impl World {
 
 /// Advances a match by the ticks of a control step, between commands that were sent and cameras.
 pub(super) fn advance_sensed(
-    memory: &mut WorkingMemory,
+    engine: &mut Scratch,
     setup: &Setup,
     parameters: &BodyParameters,
     state: &mut State,
     (senses, film): (&mut Senses, &mut Film),
 ) -> Result<(), NonFinite> {
-    let WorkingMemory { engine, commands: read } = memory;
-    let (config, columns) = (&setup.config, setup.command_columns.max(1));
-    for nth in 0..config.ticks_per_step() {
-        let changed = senses.receive(Watched { config, parameters, state });
-        // The memory is shared by all worlds of a thread.
-        if changed || nth == 0 {
-            let (rows, wheels) = (senses.commands(), senses.wheels());
-            let heard = Heard { rows, wheels, kickers: senses.kickers() };
-            read.hear(state, parameters, heard, columns);
-        }
-        Tick { setup, parameters, commands: read }.advance(state, engine)?;
+    let config = &setup.config;
+    for _ in 0..config.ticks_per_step() {
+        senses.receive(setup, parameters, state);
+        Tick { setup, parameters, commands: senses.obeyed() }.advance(state, engine)?;
         senses.watch(Watched { config, parameters, state }, film);
     }
     Ok(())
