@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::ball::kicker::KickErrors;
-use crate::blocks::{Lanes, blocks_of, larger};
+use crate::blocks::{Lanes, larger};
 use crate::body_parameters::BodyParameters;
 use crate::drive::MAX_WHEELS;
 use crate::models::sensing::Sensing;
@@ -48,10 +48,11 @@ impl Actuators {
     }
 
     /// The actuators of all robots, with their errors.
-    pub(super) fn new(robots: usize, sensing: &Sensing, draws: &mut Draws) -> Self {
+    pub(super) fn new(parameters: &BodyParameters, sensing: &Sensing, draws: &mut Draws) -> Self {
         let mut gain = || larger(Lanes::ONE + draws.normal_lanes(sensing.wheel_error), Lanes::ZERO);
-        let gains = (0..blocks_of(robots)).map(|_| std::array::from_fn(|_| gain())).collect();
-        Self { gains, obeyed: StepCommands::NONE, number: 0, are_stale: true }
+        let blocks = parameters.wheels.len();
+        let gains = (0..blocks).map(|_| std::array::from_fn(|_| gain())).collect();
+        Self { gains, obeyed: StepCommands::of(parameters), number: 0, are_stale: true }
     }
 
     /// Takes note that robots were placed: they have to obey their commands anew.

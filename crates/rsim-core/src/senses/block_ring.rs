@@ -24,9 +24,9 @@ pub(super) struct BlockRing {
 }
 
 impl BlockRing {
-    /// No frames yet, of `each` blocks.
-    pub(super) fn new(each: usize) -> Self {
-        Self { blocks: Vec::new(), each, first: 0, count: 0 }
+    /// No frames yet, of `each` blocks, with places for a number of frames.
+    pub(super) fn new(each: usize, places: usize) -> Self {
+        Self { blocks: vec![DetectedBlock::NONE; places * each], each, first: 0, count: 0 }
     }
 
     /// Number of blocks of a frame.
@@ -96,7 +96,7 @@ mod tests {
 
     #[test]
     fn frames_keep_their_order_while_others_come_and_go() {
-        let mut ring = BlockRing::new(2);
+        let mut ring = BlockRing::new(2, 1);
         let mut expected: Vec<u8> = Vec::new();
         for round in 0..40_u8 {
             for nth in 0..round % 4 {

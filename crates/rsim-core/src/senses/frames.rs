@@ -121,13 +121,13 @@ struct Ends {
 }
 
 impl Frames {
-    /// No frames yet, of robots in a number of blocks.
-    pub(super) fn new(blocks: usize) -> Self {
+    /// No frames yet, of robots in a number of blocks, with memory for some frames.
+    pub(super) fn new(blocks: usize, frames: usize) -> Self {
         Self {
-            ends: Vec::new(),
-            balls: Vec::new(),
-            blocks: BlockRing::new(blocks),
-            again: Vec::new(),
+            ends: Vec::with_capacity(frames),
+            balls: Vec::with_capacity(2 * frames),
+            blocks: BlockRing::new(blocks, frames),
+            again: Vec::with_capacity(2 * frames),
             ball_motions: Vec::new(),
             velocities: Vec::new(),
             arrived: 0,

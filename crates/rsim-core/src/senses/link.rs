@@ -54,11 +54,11 @@ impl Link {
         fetched.numbers(&self.commands);
     }
 
-    /// A link to `robots` robots that have heard nothing yet.
-    pub(super) fn new(robots: usize, columns: usize) -> Self {
+    /// A link to `robots` robots that have heard nothing yet, with memory for commands of a number of control steps.
+    pub(super) fn new(robots: usize, columns: usize, steps: usize) -> Self {
         Self {
-            under_way: Vec::new(),
-            queued: Vec::new(),
+            under_way: Vec::with_capacity(steps),
+            queued: Vec::with_capacity(steps * robots * columns),
             number: 0,
             stopped: 0,
             heard: vec![0; robots],
@@ -181,7 +181,7 @@ mod tests {
 
     /// Ticks at whose start the robot of a link obeys each of `count` commands, one in five ticks.
     fn arrivals(sensing: &Sensing, count: u16) -> Vec<(u16, u64)> {
-        let mut link = Link::new(1, 1);
+        let mut link = Link::new(1, 1, 1);
         let mut obeyed = Vec::new();
         for now in 0..u64::from(count) * 5 {
             if now % 5 == 0 {
@@ -238,7 +238,7 @@ mod tests {
     #[test]
     fn a_robot_that_hears_nothing_stops_in_time_and_obeys_again() {
         let lost = Sensing { command_loss: 1.0, ..Sensing::OFF };
-        let mut link = Link::new(2, 1);
+        let mut link = Link::new(2, 1, 1);
         link.send(0, TICK, (&Sensing::OFF, 0), &[7.0, 8.0]);
         assert_eq!(link.receive(0, Some(20)).map(|change| change.robots & 3), Some(3));
         for now in 1..20 {

@@ -44,6 +44,7 @@ use crate::senses::fetch::Fetched;
 use crate::senses::frames::CameraFrame;
 use crate::senses::held::Beams;
 use crate::senses::link::Link;
+use crate::senses::queue::places;
 use crate::senses::random::{Draws, Purpose};
 use crate::senses::reports::{Reported, Reports};
 use crate::senses::vision::Vision;
@@ -89,6 +90,11 @@ impl Senses {
     /// The senses of a match that begins in this state. `key` makes its errors its own.
     pub(crate) fn new(sensing: Arc<Sensing>, key: u64, watched: Watched<'_>) -> Self {
         let (robots, columns) = (watched.config.n_robots(), watched.config.command_columns());
+        // Memory for all that is on its way from the start: what a match has lies in one place then, and comes into a
+        // processor's cache together.
+        let step = watched.config.time_step;
+        let reports = places(sensing.feedback_delay, step) + 1;
+        let commands = places(sensing.command_delay + sensing.command_jitter, step) + 1;
         let mut draws = Draws::of(key, Purpose::Episode, 0);
         let mut visions = vec![Vision::new(watched.config, &sensing, key, &mut draws)];
         if sensing.own_cameras >= 0.5 {
@@ -99,9 +105,9 @@ impl Senses {
         let mut senses = Self {
             next_exposure: next_exposure(&visions),
             visions,
-            reports: Reports::new(watched.parameters, &sensing, &mut draws),
-            link: Link::new(robots, columns),
-            actuators: Actuators::new(robots, &sensing, &mut draws),
+            reports: Reports::new(watched.parameters, &sensing, &mut draws, reports),
+            link: Link::new(robots, columns, commands),
+            actuators: Actuators::new(watched.parameters, &sensing, &mut draws),
             sent: CommandLog::default(),
             timeout: timeout(&sensing, watched.config.tick),
             sensing,

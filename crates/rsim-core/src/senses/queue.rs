@@ -1,5 +1,12 @@
 //! Queues of what is on its way. They mostly empty at once, which costs less than the general case.
 
+/// Number of things on their way that take up to a time (s) each, where one sets out each `period`, s.
+pub(super) fn places(seconds: f32, period: f32) -> usize {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative")]
+    let whole = (seconds / period) as usize;
+    whole + 1
+}
+
 /// Removes the first `count` things, or all if there are fewer.
 pub(super) fn remove_first<T: Copy>(queue: &mut Vec<T>, count: usize) {
     if count >= queue.len() {
@@ -13,6 +20,13 @@ pub(super) fn remove_first<T: Copy>(queue: &mut Vec<T>, count: usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn there_are_places_for_all_that_are_under_way() {
+        for (seconds, expected) in [(0.0, 1), (0.02, 1), (0.03, 2), (0.26, 11)] {
+            assert_eq!(places(seconds, 0.025), expected, "{seconds}");
+        }
+    }
 
     #[test]
     fn the_rest_keeps_its_order() {

@@ -74,14 +74,19 @@ impl Reports {
         self.gyroscope_errors.iter().for_each(|error| fetched.lanes(error));
     }
 
-    /// Before the first report.
-    pub(super) fn new(parameters: &BodyParameters, sensing: &Sensing, draws: &mut Draws) -> Self {
+    /// Before the first report, with memory for those of a number of control steps.
+    pub(super) fn new(
+        parameters: &BodyParameters,
+        sensing: &Sensing,
+        draws: &mut Draws,
+        steps: usize,
+    ) -> Self {
         let robots = parameters.robots.len();
         let blocks = if sensing.odometry >= 0.5 { blocks_of(robots) } else { 0 };
         let error = |_| draws.normal_lanes(sensing.gyroscope_error);
         Self {
-            under_way: Vec::new(),
-            queued: Vec::new(),
+            under_way: Vec::with_capacity(steps),
+            queued: Vec::with_capacity(steps * blocks),
             number: 0,
             gyroscope_errors: (0..blocks).map(error).collect(),
             cut: 0,

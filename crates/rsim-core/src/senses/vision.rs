@@ -12,6 +12,7 @@ use crate::senses::exposed::Film;
 use crate::senses::fetch::Fetched;
 use crate::senses::frames::{CameraFrame, Frames};
 use crate::senses::held::Beams;
+use crate::senses::queue::places;
 use crate::senses::random::Draws;
 use crate::senses::tracker::Tracker;
 use crate::state::State;
@@ -32,10 +33,13 @@ impl Vision {
     pub(super) fn new(config: &SimConfig, sensing: &Sensing, key: u64, draws: &mut Draws) -> Self {
         let cameras = Cameras::new(config, sensing, draws);
         let (robots, period) = (config.n_robots(), cameras.period());
+        // Those on their way, those of a step, and the one to come.
+        let seconds = sensing.delay + sensing.delay_jitter + config.time_step;
+        let frames = Frames::new(blocks_of(robots), places(seconds, period) + 1);
         let tracker = Tracker::new(robots, sensing, period);
         let has_driven = sensing.forecast >= 0.5 && sensing.tracker >= 0.5;
         let driven = has_driven.then(|| Box::new(DrivenRobots::new(robots, sensing, period)));
-        Self { key, cameras, frames: Frames::new(blocks_of(robots)), tracker, driven }
+        Self { key, cameras, frames, tracker, driven }
     }
 
     /// Fetches cameras, frames and tracker; what forecasts need besides is left out.
@@ -54,7 +58,7 @@ impl Vision {
         watched: Watched<'_>,
     ) {
         self.frames.forget_on_way();
-        let mut first = Frames::new(blocks_of(watched.config.n_robots()));
+        let mut first = Frames::new(blocks_of(watched.config.n_robots()), 1);
         self.cameras.look(now, sensing, draws, watched, &mut first);
         let Some(frame) = first.last() else { return };
         self.tracker.begin(frame);

@@ -55,6 +55,15 @@ impl StepCommands {
     pub(crate) const NONE: Self =
         Self { wheels: Vec::new(), handling: Vec::new(), kick_errors: KickErrors::NONE };
 
+    /// Of no robots, with memory for those with these parameters.
+    pub(crate) fn of(parameters: &BodyParameters) -> Self {
+        Self {
+            wheels: Vec::with_capacity(parameters.wheels.len()),
+            handling: Vec::with_capacity(parameters.mouths.count_ones() as usize),
+            ..Self::NONE
+        }
+    }
+
     /// Reads the commands from rows of `columns` numbers, one row per robot, and sets the dribblers of
     /// `state`. Commands of absent robots are ignored.
     pub(crate) fn read(

@@ -16,6 +16,8 @@ use crate::world::World;
 impl World {
     /// Begins senses anew. `key` makes their errors the match's own.
     pub(super) fn set_senses(&mut self, key: u64, sensing: Option<Arc<Sensing>>) {
+        // The new ones take the memory of the old.
+        self.senses = None;
         self.senses = sensing.map(|sensing| Box::new(Senses::new(sensing, key, self.watched())));
     }
 
