@@ -28,7 +28,7 @@ def test_robots_of_vsss_are_identified(capsys: pytest.CaptureFixture[str]) -> No
         if len(cells) == 6
     }
     assert rows["latency"][0] == "2 of 2"
-    assert float(rows["latency"][2]) < 0.002
+    assert float(rows["latency"][2]) < 0.003, "three times the deviation of many logs"
     assert float(rows["wheel_radius"][2].rstrip("%")) < 2.0
     assert float(rows["longitudinal_grip"][2].rstrip("%")) < 10.0
     assert float(rows["rolling_deceleration"][2].rstrip("%")) < 5.0

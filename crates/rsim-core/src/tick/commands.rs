@@ -34,7 +34,7 @@ pub(super) struct HandlingCommand {
     pub(super) robot: u8,
 }
 
-/// How robots obey commands that do not obey exactly.
+/// Errors of robots that do not obey commands exactly.
 #[derive(Clone, Copy)]
 pub(crate) struct CommandErrors<'a> {
     /// Factors on the speeds of the wheels, by block.
