@@ -228,6 +228,16 @@ mod tests {
     }
 
     #[test]
+    fn a_ball_beside_the_mouth_is_not_controlled() {
+        let mut scene = Scene::new(1, 0);
+        scene.robot(0, [0.0, 0.0]);
+        for (aside, expected) in [(0.028, true), (0.033, false)] {
+            scene.ball([0.093, aside], [0.0, 0.0]);
+            assert_eq!(scene.situation(PLAY, |s| controls(s, &s.view.own[0])), expected, "{aside}");
+        }
+    }
+
+    #[test]
     fn a_robot_catches_up_with_a_ball_before_its_mouth() {
         let mut scene = Scene::new(1, 1);
         scene.robot(0, [0.0, 0.0]);

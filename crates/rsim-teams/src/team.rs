@@ -243,6 +243,26 @@ mod tests {
     }
 
     #[test]
+    fn lone_robots_fetch_balls_that_the_opponent_may_not_touch() {
+        let mut scene = Scene::new(1, 1);
+        for (team, side, opponent) in [(Team::Blue, 1.0, 1), (Team::Yellow, -1.0, 0)] {
+            scene.robot(1 - opponent, [-2.0 * side, 0.0]);
+            scene.robot(opponent, [1.3 * side, 0.0]);
+            scene.ball([1.0 * side, 0.0], [0.0, 0.0]);
+            let ahead = |kick_taker| {
+                let game = Game { kick_taker, ..in_play() };
+                // All robots face +x.
+                side * acted(&scene, &game, team, &mut begun(&scene, 5))[0]
+            };
+            assert!(ahead(Some(opponent)) > 0.0, "{team:?}: {}", ahead(Some(opponent)));
+            assert!(
+                ahead(Some(1 - opponent)) < 0.0 && ahead(None) < 0.0,
+                "{team:?} guards its goal"
+            );
+        }
+    }
+
+    #[test]
     fn commands_depend_on_row_match_and_memory_alone() {
         let scene = Scene::new(3, 2);
         let mut memory = begun(&scene, 5);

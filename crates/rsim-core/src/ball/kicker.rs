@@ -6,7 +6,7 @@ use crate::geometry::motion::rotated;
 use crate::math::Vector;
 use crate::streams::{STRIDE, mixed, normals};
 
-/// Errors of a kick.
+/// A kicker as it obeys in one kick.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Kicker {
     /// Factor on the speed.
@@ -15,7 +15,7 @@ pub(crate) struct Kicker {
     pub(crate) direction: Vector,
 }
 
-/// Errors of all kicks that a command of a control step asks for. They are drawn when a ball is kicked, which is seldom.
+/// How far kickers obey the commands of a control step. Their errors are drawn when a ball is kicked, which is seldom.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct KickErrors {
     /// Word of the command, of which the random numbers are made.
@@ -32,7 +32,7 @@ impl KickErrors {
     pub(crate) const NONE: Self =
         Self { word: 0, gain: 1.0, speed_noise: 0.0, direction_noise: 0.0 };
 
-    /// Errors of the kick of a robot.
+    /// The kicker of a robot.
     pub(crate) fn of(&self, robot: usize) -> Kicker {
         if self.speed_noise == 0.0 && self.direction_noise == 0.0 {
             return Kicker { gain: self.gain, direction: Vector::X };
@@ -43,5 +43,25 @@ impl KickErrors {
             gain: self.gain * (1.0 + self.speed_noise * speed).max(0.0),
             direction: rotated(Vector::X, self.direction_noise * direction),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn robots_have_errors_of_their_own_and_a_weak_battery_weakens_all_kicks() {
+        let errors = KickErrors { word: 5, gain: 0.5, speed_noise: 0.1, direction_noise: 0.1 };
+        let all: Vec<Kicker> = (0..64).map(|robot| errors.of(robot)).collect();
+        for (nth, one) in all.iter().enumerate() {
+            assert!(!all[..nth].contains(one) && errors.of(nth) == *one);
+            assert!((one.gain - 0.5).abs() < 0.3 && (one.direction.length() - 1.0).abs() < 1e-6);
+        }
+        let exact = KickErrors { gain: 0.5, ..KickErrors::NONE };
+        assert_eq!(exact.of(3), Kicker { gain: 0.5, direction: Vector::X });
+        let wild = KickErrors { speed_noise: 1.0, ..errors };
+        let gains: Vec<f32> = (0..64).map(|robot| wild.of(robot).gain).collect();
+        assert!(gains.contains(&0.0) && gains.iter().all(|gain| *gain >= 0.0), "{gains:?}");
     }
 }

@@ -9,8 +9,8 @@ use crate::senses::detections::DetectedBlock;
 /// Frames by which a ring grows that is full.
 const MORE: usize = 2;
 
-/// Robots of frames by block, the oldest frame first. Frames come and go without a move of the others: many matches
-/// have to fit into a processor's cache.
+/// Robots of frames by block, the oldest frame first. Frames come and go without a move of the others, which would read
+/// and write all of them in each step.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct BlockRing {
     /// Blocks of all places.

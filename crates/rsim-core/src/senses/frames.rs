@@ -97,7 +97,8 @@ pub struct CameraFrame {
 
 /// Frames in the order of their arrival: those that arrived in the last control step, then those on their way.
 ///
-/// Detections of all frames follow each other, the oldest first: many matches have to fit into a processor's cache.
+/// Balls, and robots detected again, of all frames follow each other, the oldest first, and robots by block are in a
+/// ring: many matches have to fit into a processor's cache.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Frames {
     ends: Vec<Ends>,

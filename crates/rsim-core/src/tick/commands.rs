@@ -1,4 +1,4 @@
-//! Commands of a control step, read once for all of its ticks.
+//! Commands in the form that a tick reads: those of a control step are read once, with senses once they are heard.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,7 +10,7 @@ use crate::drive::{BlockCommands, MAX_WHEELS, WheelErrors};
 use crate::models::robot::Drive;
 use crate::state::State;
 
-/// Commands of all robots for a control step.
+/// Commands of all robots for a control step, or, with senses, until others are heard.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct StepCommands {
     /// Commands of the wheels, by block.
@@ -76,7 +76,6 @@ impl StepCommands {
         self.read_wheels(parameters, commands, columns);
         self.halt(state.absent);
         self.read_handling(state, parameters, commands, columns, [0; 2]);
-        self.kick_errors = KickErrors::NONE;
     }
 
     /// The same for robots that do not obey exactly.

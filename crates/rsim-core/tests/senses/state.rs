@@ -1,6 +1,6 @@
 //! Senses as state: off is off, the same bytes in every way, saved and restored.
 
-use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
+use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS, robot_column, row_size};
 use rsim_core::scenes::{self, Driver, Scene};
 use rsim_core::{Sensing, SimConfig};
 
@@ -231,4 +231,51 @@ fn headings_have_length_1() {
         }
         assert!(turned > 5.0, "{turned}");
     }
+}
+
+#[test]
+fn robots_that_leave_and_come_back_obey_the_commands_on_their_way_as_others_do() {
+    // Commands arrive two ticks after a step began: until then the last ones count.
+    let sensing = Sensing { command_delay: 0.01, ..Sensing::OFF };
+    let drive = vec![1.0, 0.0, 0.0, 0.0, 0.0, 1.0];
+    let poses = [[-2.0, -1.0, 0.0], [-2.0, 1.0, 0.0]];
+    let driver = Driver::Constant(vec![drive; 2]);
+    let scene = Scene::at("drive", scenes::ssl(2, 0), &poses, driver);
+    let (mut batch, mut rows) = begin(&scene, sensing, 1);
+    let column =
+        |rows: &[f32], robot: usize, name: &str| rows[row_size(robot) + robot_column(name)];
+    (0..10).for_each(|nth| drop(step(&mut batch, &scene, &mut rows, nth)));
+    let mut away = scene.start.clone();
+    away[row_size(1) + robot_column("absent")] = 1.0;
+    batch.reposition_robots(&[true], &[false, true], &away, &mut rows).expect("absent");
+    let bench = rows[row_size(1)..].to_vec();
+    step(&mut batch, &scene, &mut rows, 10);
+    assert_eq!(rows[row_size(1)..], bench, "an absent robot rests");
+    batch.reposition_robots(&[true], &[true, true], &scene.start, &mut rows).expect("free");
+    step(&mut batch, &scene, &mut rows, 11);
+    let [one, other] = [0, 1].map(|robot| column(&rows, robot, "v_x"));
+    assert!(one > 0.05 && (one - other).abs() < 1e-4, "{one} {other}");
+}
+
+#[test]
+fn frames_after_a_restart_show_robots_where_they_are() {
+    let poses = [[-2.0, -1.0, 0.0], [-2.0, 1.0, 0.0]];
+    let scene = Scene::at("still", scenes::ssl(2, 0), &poses, Driver::STILL);
+    let sensing = Sensing { delay: 0.1, frame_rate: 100.0, ..Sensing::OFF };
+    let (mut batch, mut rows) = begin(&scene, sensing, 1);
+    (0..10).for_each(|nth| drop(step(&mut batch, &scene, &mut rows, nth)));
+    let mut start = scene.start.clone();
+    for robot in scenes::robots_mut(&mut start) {
+        robot[0] = 2.0;
+    }
+    batch.restart(&[true], &start, &mut rows).expect("free");
+    let mut seen = 0;
+    for nth in 10..30 {
+        step(&mut batch, &scene, &mut rows, nth);
+        for frame in batch.camera_frames(0) {
+            assert!(frame.robots.iter().all(|robot| (robot[2] - 2.0).abs() < 1e-3), "{frame:?}");
+            seen += frame.robots.len();
+        }
+    }
+    assert!(seen > 20, "{seen}");
 }
