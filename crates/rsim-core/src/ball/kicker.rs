@@ -15,7 +15,7 @@ pub(crate) struct Kicker {
     pub(crate) direction: Vector,
 }
 
-/// How far kickers obey the commands of a control step. Their errors are drawn when a ball is kicked, which is seldom.
+/// Obedience of kickers to the commands of a control step. Errors are drawn when a ball is kicked, which is seldom.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct KickErrors {
     /// Word of the command, of which the random numbers are made.
