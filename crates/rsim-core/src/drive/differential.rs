@@ -124,19 +124,24 @@ impl Wheels {
         [left, right, others[0], others[1]]
     }
 
-    /// Effect of the wheels that follow the speeds `[left, right, ..]`, rad/s, in a tick, for the robots
+    /// Speeds of the rims, m/s, by the commands `[left, right, ..]`, rad/s; the third number means nothing.
+    pub(super) fn rims(&self, [left, right, ..]: &[Lanes; MAX_COLUMNS]) -> [Lanes; 3] {
+        let rim = |speed: Lanes| self.wheel_radius * limited(speed, self.max_wheel_speed);
+        [rim(*left), rim(*right), Lanes::ZERO]
+    }
+
+    /// Effect of the wheels whose rims have the speeds `[left, right, ..]`, m/s, in a tick, for the robots
     /// of `mask`, whose tipping is in `state`.
     ///
     /// Rims turn as commanded; friction acts on each tire against its slip at the end of the tick.
     pub(super) fn effect(
         &self,
         mask: Lanes,
-        command: &[Lanes; MAX_COLUMNS],
+        [left, right, _]: &[Lanes; 3],
         own: &OwnMotion,
         state: &mut TippingState,
     ) -> WheelEffect {
-        let rims = [command[0], command[1]]
-            .map(|speed| self.wheel_radius * limited(speed, self.max_wheel_speed));
+        let rims = [*left, *right];
         let mut slip = self.slip(own.velocity, own.angular_velocity, rims);
         let mut load = own.load;
         if let Some(tipping) = &self.tipping {

@@ -104,6 +104,30 @@ impl BlockWheels {
             ticks_per_second: 1.0 / tick,
         }
     }
+
+    /// Numbers of each robot by the kind of its wheels: `none` where it has none.
+    fn by_kind<const N: usize>(
+        &self,
+        none: [Lanes; N],
+        differential: impl FnOnce(&differential::Wheels) -> [Lanes; N],
+        omni: impl FnOnce(&omni::Wheels) -> [Lanes; N],
+        each_omni: impl FnOnce(&omni::Wheels) -> [Lanes; N],
+    ) -> [Lanes; N] {
+        let mut numbers = none;
+        let mut replace = |mask: Lanes, by: [Lanes; N]| {
+            numbers = std::array::from_fn(|nth| mask.bitselect(by[nth], numbers[nth]));
+        };
+        if let Some(Mounted { mask, wheels }) = &self.differential {
+            replace(*mask, differential(wheels));
+        }
+        if let Some(Mounted { mask, wheels }) = &self.omni {
+            replace(*mask, omni(wheels));
+        }
+        if let Some(Mounted { mask, wheels }) = &self.each_omni {
+            replace(*mask, each_omni(wheels));
+        }
+        numbers
+    }
 }
 
 fn differential_of(model: &RobotModel) -> Option<&DifferentialDrive> {
@@ -137,16 +161,11 @@ fn mounted<'a, D: 'a, W>(
     Some(Mounted { mask, wheels: wheels(all) })
 }
 
-/// The parts of commands that the wheels of a block follow, by column.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+/// The parts of commands that are for the wheels of a block, by column.
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct BlockCommands([Lanes; MAX_COLUMNS]);
 
 impl BlockCommands {
-    /// The first column.
-    pub(crate) fn first(&self) -> &Lanes {
-        &self.0[0]
-    }
-
     /// Reads the commands of block `block` from rows of `columns` numbers, one row per robot.
     pub(crate) fn read(commands: &[f32], columns: usize, block: usize) -> Self {
         let row = |lane: usize| {
@@ -164,26 +183,43 @@ impl BlockCommands {
 
     /// Replaces the commands by those that wheels with errors obey.
     pub(crate) fn obey(&mut self, wheels: &BlockWheels, errors: WheelErrors<'_>) {
-        let BlockWheels { differential, omni, each_omni, .. } = wheels;
-        if let Some(Mounted { mask, wheels }) = differential {
-            self.replace(*mask, wheels.obeyed(self.0, errors));
-        }
-        if let Some(Mounted { mask, wheels }) = omni {
-            self.replace(*mask, wheels.obeyed_velocity(self.0, errors));
-        }
-        if let Some(Mounted { mask, wheels }) = each_omni {
-            self.replace(*mask, wheels.obeyed_wheel_speeds(self.0, errors));
-        }
-    }
-
-    /// Replaces the commands in the lanes of `mask`.
-    fn replace(&mut self, mask: Lanes, by: [Lanes; MAX_COLUMNS]) {
-        self.0 = std::array::from_fn(|column| mask.bitselect(by[column], self.0[column]));
+        self.0 = wheels.by_kind(
+            self.0,
+            |wheels| wheels.obeyed(self.0, errors),
+            |wheels| wheels.obeyed_velocity(self.0, errors),
+            |wheels| wheels.obeyed_wheel_speeds(self.0, errors),
+        );
     }
 
     /// Commands the wheels in the lanes of `mask` to stand still.
     pub(crate) fn halt(&mut self, mask: Lanes) {
         self.0 = self.0.map(|column| mask.bitselect(Lanes::ZERO, column));
+    }
+
+    /// What the wheels do by these commands.
+    pub(crate) fn targets(&self, wheels: &BlockWheels) -> BlockTargets {
+        let Self(command) = self;
+        BlockTargets(wheels.by_kind(
+            [Lanes::ZERO; 3],
+            |wheels| wheels.rims(command),
+            |wheels| wheels.target_of_velocity(command),
+            |wheels| wheels.target_of_wheel_speeds(command),
+        ))
+    }
+}
+
+/// Speeds that the wheels of a block are to have, by lane: of robots with two wheels those of the rims, left and right
+/// (m/s); of omnidirectional ones the velocity forward and to the left (m/s) and the angular velocity (rad/s), in their
+/// own frames.
+///
+/// They follow from the commands alone, so they are computed once for all ticks.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+pub(crate) struct BlockTargets([Lanes; 3]);
+
+impl BlockTargets {
+    /// The first number.
+    pub(crate) fn first(&self) -> &Lanes {
+        &self.0[0]
     }
 }
 
@@ -302,11 +338,11 @@ impl DriveState {
         self.tipping.set_upright(mask);
     }
 
-    /// Accelerations of the robots by their wheels, which follow `commands` for a tick.
+    /// Accelerations of the robots by their wheels, which follow `targets` for a tick.
     pub(crate) fn accelerate(
         &mut self,
         wheels: &BlockWheels,
-        commands: &BlockCommands,
+        targets: &BlockTargets,
         motion: &MotionBlock,
     ) -> BlockAcceleration {
         // Only omnidirectional robots have one.
@@ -322,19 +358,17 @@ impl DriveState {
                 VectorLanes::ZERO
             },
         };
-        let BlockCommands(command) = commands;
+        let BlockTargets(targets) = targets;
         let mut effect = WheelEffect::NONE;
         if let Some(Mounted { mask, wheels }) = &wheels.differential {
             effect =
-                wheels.effect(*mask, command, &own, &mut self.tipping).where_else(*mask, &effect);
+                wheels.effect(*mask, targets, &own, &mut self.tipping).where_else(*mask, &effect);
         }
         if let Some(Mounted { mask, wheels }) = &wheels.omni {
-            let target = wheels.target_of_velocity(command);
-            effect = wheels.effect(&target, &own).where_else(*mask, &effect);
+            effect = wheels.effect(targets, &own).where_else(*mask, &effect);
         }
         if let Some(Mounted { mask, wheels }) = &wheels.each_omni {
-            let target = wheels.target_of_wheel_speeds(command);
-            effect = wheels.effect(&target, &own).where_else(*mask, &effect);
+            effect = wheels.effect(targets, &own).where_else(*mask, &effect);
         }
         let velocity = effect.velocity.rotated_by(motion.heading);
         if has_change {

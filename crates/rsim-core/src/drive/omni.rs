@@ -8,12 +8,6 @@ use crate::columns::MAX_COMMAND;
 use crate::math::Rotation;
 use crate::models::robot::OmniDrive;
 
-/// Target velocities (m/s) and angular velocities (rad/s) of the robots of a block, in their own frames.
-pub(super) struct TargetVelocity {
-    velocity: VectorLanes,
-    angular_velocity: Lanes,
-}
-
 /// Limits of one tick, and the kinematics between body velocity and wheel speeds.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Wheels {
@@ -112,15 +106,16 @@ impl Wheels {
         })
     }
 
-    /// Target of the commands `[forward, left, angular velocity, ..]`.
-    pub(super) fn target_of_velocity(&self, command: &[Lanes; MAX_COLUMNS]) -> TargetVelocity {
+    /// Target of the commands `[forward, left, angular velocity, ..]`: velocity forward and to the left, m/s, and angular
+    /// velocity, rad/s.
+    pub(super) fn target_of_velocity(&self, command: &[Lanes; MAX_COLUMNS]) -> [Lanes; 3] {
         let limit = Lanes::splat(MAX_COMMAND);
         let [x, y] = [command[0], command[1]].map(|speed| limited(speed, limit));
         self.saturated(VectorLanes { x, y }, command[2])
     }
 
     /// Target of commands of four wheel speeds, rad/s.
-    pub(super) fn target_of_wheel_speeds(&self, command: &[Lanes; MAX_COLUMNS]) -> TargetVelocity {
+    pub(super) fn target_of_wheel_speeds(&self, command: &[Lanes; MAX_COLUMNS]) -> [Lanes; 3] {
         let factor = saturation_factor(command, self.max_wheel_speed);
         let speeds = command.map(|speed| speed * factor);
         let [x, y, angular_velocity] = self.body_velocity(&speeds);
@@ -128,22 +123,23 @@ impl Wheels {
     }
 
     /// The target within the maximum speeds, without a change of direction.
-    fn saturated(&self, velocity: VectorLanes, angular_velocity: Lanes) -> TargetVelocity {
+    fn saturated(&self, velocity: VectorLanes, angular_velocity: Lanes) -> [Lanes; 3] {
         let velocity = velocity.of_length_at_most(self.max_speed);
         let angular_velocity = limited(angular_velocity, self.max_angular_velocity);
         let speeds = self.wheel_speeds(velocity, angular_velocity);
         let factor = saturation_factor(&speeds, self.max_wheel_speed);
-        TargetVelocity { velocity: velocity * factor, angular_velocity: angular_velocity * factor }
+        let VectorLanes { x, y } = velocity * factor;
+        [x, y, angular_velocity * factor]
     }
 
-    /// Effect of the wheels in a tick.
-    pub(super) fn effect(&self, target: &TargetVelocity, own: &OwnMotion) -> WheelEffect {
-        let error = target.velocity - own.velocity;
+    /// Effect in a tick of wheels with a target velocity forward and to the left, m/s, and angular velocity, rad/s.
+    pub(super) fn effect(&self, [x, y, turn]: &[Lanes; 3], own: &OwnMotion) -> WheelEffect {
+        let error = VectorLanes { x: *x, y: *y } - own.velocity;
         let slower = error.dot(own.velocity).simd_lt(Lanes::ZERO);
         let limit = slower.bitselect(self.speed_loss, self.speed_gain);
         let change = error.of_length_at_most(self.jerk_limited_change(error, limit));
         let change = self.jerk_limited(change, own);
-        let angular_error = target.angular_velocity - own.angular_velocity;
+        let angular_error = *turn - own.angular_velocity;
         let slower = (angular_error * own.angular_velocity).simd_lt(Lanes::ZERO);
         let limit = slower.bitselect(self.angular_loss, self.angular_gain);
         let angular_change = limited(angular_error, limit);
@@ -259,9 +255,8 @@ mod tests {
     }
 
     /// Velocity forward and to the left, and angular velocity, in one lane.
-    fn speeds(target: &TargetVelocity, lane: usize) -> [f32; 3] {
-        let velocity = target.velocity.get(lane);
-        [velocity.x, velocity.y, target.angular_velocity.as_array()[lane]]
+    fn speeds(target: &[Lanes; 3], lane: usize) -> [f32; 3] {
+        target.map(|speed| speed.as_array()[lane])
     }
 
     #[test]

@@ -44,7 +44,7 @@ impl Actuators {
     /// Fetches errors of wheels, and their commands.
     pub(super) fn fetch(&self, fetched: &mut Fetched) {
         self.gains.iter().for_each(|gains| fetched.lanes(&gains[0]));
-        self.obeyed.wheels().iter().for_each(|commands| fetched.lanes(commands.first()));
+        self.obeyed.targets().iter().for_each(|targets| fetched.lanes(targets.first()));
     }
 
     /// The actuators of all robots, with their errors.

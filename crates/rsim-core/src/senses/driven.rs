@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::blocks::{Lanes, blocks_of, place_of, robot};
 use crate::body_parameters::BodyParameters;
-use crate::drive::{BlockCommands, DriveState};
+use crate::drive::{BlockCommands, BlockTargets, DriveState};
 use crate::forecast::commands::{Acting, CommandLog, is_same};
 use crate::geometry::motion::Motion;
 use crate::geometry::motion_block::MotionBlock;
@@ -148,7 +148,7 @@ impl DrivenRobots {
     fn drive(&mut self, elapsed: f32, orders: Orders<'_>) {
         let blocks = &mut self.tracks.blocks;
         let mut motions: Vec<MotionBlock> = blocks.iter().map(|block| *block.motions()).collect();
-        let mut drives = Drives { orders, commands: Vec::new(), acting: None };
+        let mut drives = Drives { orders, targets: Vec::new(), acting: None };
         let (time, mut passed) = (elapsed.min(LOST), 0.0);
         while time - passed > ROUNDING * orders.tick {
             let part = orders.tick.min(time - passed);
@@ -165,8 +165,8 @@ impl DrivenRobots {
 /// The drives of all robots, which follow known commands.
 struct Drives<'a> {
     orders: Orders<'a>,
-    /// Commands of the wheels, by block.
-    commands: Vec<BlockCommands>,
+    /// What the wheels do, by block.
+    targets: Vec<BlockTargets>,
     /// The commands that these are; `None` before the first.
     acting: Option<Acting<'a>>,
 }
@@ -183,15 +183,16 @@ impl Drives<'_> {
         let Orders { sent, timeout, parameters, columns, .. } = self.orders;
         let acting = sent.acting(now, timeout);
         if self.acting.is_none_or(|last| !is_same(last, acting)) {
-            let read = |block| BlockCommands::read(acting.unwrap_or_default(), columns, block);
-            self.commands.clear();
-            self.commands.extend((0..motions.len()).map(read));
+            let commands = acting.unwrap_or_default();
+            let read = |(block, wheels)| BlockCommands::read(commands, columns, block).targets(wheels);
+            self.targets.clear();
+            self.targets.extend(parameters.wheels.iter().enumerate().map(read));
             self.acting = Some(acting);
         }
         let time = Lanes::splat(part);
-        let models = parameters.wheels.iter().zip(&self.commands);
-        for ((motion, wheels), (model, commands)) in motions.iter_mut().zip(wheels).zip(models) {
-            let gain = wheels.accelerate(model, commands, motion);
+        let models = parameters.wheels.iter().zip(&self.targets);
+        for ((motion, wheels), (model, targets)) in motions.iter_mut().zip(wheels).zip(models) {
+            let gain = wheels.accelerate(model, targets, motion);
             motion.advance(gain.linear * time, gain.angular * time, part, 1);
         }
     }

@@ -6,15 +6,15 @@ use crate::ball::kicker::KickErrors;
 use crate::blocks::{Lanes, lanes_of_robots, mask_of_bits, set_bits};
 use crate::body_parameters::BodyParameters;
 use crate::columns::{OMNI_COLUMNS, OMNI_WHEELS_COLUMNS};
-use crate::drive::{BlockCommands, MAX_WHEELS, WheelErrors};
+use crate::drive::{BlockCommands, BlockTargets, BlockWheels, MAX_WHEELS, WheelErrors};
 use crate::models::robot::Drive;
 use crate::state::State;
 
 /// Commands of all robots for a control step, or, with senses, until others are heard.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct StepCommands {
-    /// Commands of the wheels, by block.
-    wheels: Vec<BlockCommands>,
+    /// What the wheels do, by block.
+    targets: Vec<BlockTargets>,
     /// Robots that are to kick or to dribble.
     pub(super) handling: Vec<HandlingCommand>,
     /// Errors of the kicks.
@@ -53,12 +53,12 @@ pub(crate) struct CommandErrors<'a> {
 impl StepCommands {
     /// Of no robots.
     pub(crate) const NONE: Self =
-        Self { wheels: Vec::new(), handling: Vec::new(), kick_errors: KickErrors::NONE };
+        Self { targets: Vec::new(), handling: Vec::new(), kick_errors: KickErrors::NONE };
 
     /// Of no robots, with memory for those with these parameters.
     pub(crate) fn of(parameters: &BodyParameters) -> Self {
         Self {
-            wheels: Vec::with_capacity(parameters.wheels.len()),
+            targets: Vec::with_capacity(parameters.wheels.len()),
             handling: Vec::with_capacity(parameters.mouths.count_ones() as usize),
             ..Self::NONE
         }
@@ -73,8 +73,7 @@ impl StepCommands {
         commands: &[f32],
         columns: usize,
     ) {
-        self.read_wheels(parameters, commands, columns);
-        self.halt(state.absent);
+        self.read_wheels(state.absent, parameters, (commands, columns), |_, _, _| ());
         self.read_handling(state, parameters, commands, columns, [0; 2]);
     }
 
@@ -87,27 +86,40 @@ impl StepCommands {
         columns: usize,
         errors: CommandErrors<'_>,
     ) {
-        self.read_wheels(parameters, commands, columns);
-        let CommandErrors { dead_zone, battery, .. } = errors;
-        let blocks = self.wheels.iter_mut().zip(errors.gains).zip(&parameters.wheels);
-        for ((command, gains), wheels) in blocks {
-            command.obey(wheels, WheelErrors { gains, dead_zone, battery });
-        }
-        self.halt(state.absent);
+        let CommandErrors { gains, dead_zone, battery, .. } = errors;
+        let obey = |block: usize, wheels: &BlockWheels, command: &mut BlockCommands| {
+            if let Some(gains) = gains.get(block) {
+                command.obey(wheels, WheelErrors { gains, dead_zone, battery });
+            }
+        };
+        self.read_wheels(state.absent, parameters, (commands, columns), obey);
         let failures = [errors.kick_failures, errors.dribbler_failures];
         self.read_handling(state, parameters, commands, columns, failures);
         self.kick_errors = errors.kick_errors;
     }
 
-    /// Commands of the wheels, by block.
-    pub(crate) fn wheels(&self) -> &[BlockCommands] {
-        &self.wheels
+    /// What the wheels do, by block.
+    pub(crate) fn targets(&self) -> &[BlockTargets] {
+        &self.targets
     }
 
-    fn read_wheels(&mut self, parameters: &BodyParameters, commands: &[f32], columns: usize) {
-        self.wheels.clear();
-        let blocks = 0..parameters.wheels.len();
-        self.wheels.extend(blocks.map(|block| BlockCommands::read(commands, columns, block)));
+    /// Reads the commands of the wheels. Those of `absent` robots, one bit each, stand still.
+    fn read_wheels(
+        &mut self,
+        absent: u64,
+        parameters: &BodyParameters,
+        (commands, columns): (&[f32], usize),
+        obey: impl Fn(usize, &BlockWheels, &mut BlockCommands),
+    ) {
+        self.targets.clear();
+        self.targets.extend(parameters.wheels.iter().enumerate().map(|(block, wheels)| {
+            let mut command = BlockCommands::read(commands, columns, block);
+            obey(block, wheels, &mut command);
+            if absent != 0 {
+                command.halt(mask_of_bits(lanes_of_robots(absent, block).into()));
+            }
+            command.targets(wheels)
+        }));
     }
 
     /// Reads the commands of kickers and dribblers, of which those of `failures` do nothing: robots whose kickers fail,
@@ -130,16 +142,6 @@ impl StepCommands {
             if command.acts() {
                 self.handling.push(command);
             }
-        }
-    }
-
-    /// Commands the wheels of `robots`, one bit each, to stand still.
-    fn halt(&mut self, robots: u64) {
-        if robots == 0 {
-            return;
-        }
-        for (block, commands) in self.wheels.iter_mut().enumerate() {
-            commands.halt(mask_of_bits(lanes_of_robots(robots, block).into()));
         }
     }
 }

@@ -203,9 +203,9 @@ impl Tick<'_> {
     }
 
     fn drive_robots(&self, state: &mut State) {
-        let wheels = self.parameters.wheels.iter().zip(self.commands.wheels());
-        for (block, (wheels, commands)) in state.bodies.blocks.iter_mut().zip(wheels) {
-            block.acceleration = block.drive.accelerate(wheels, commands, &block.motion);
+        let wheels = self.parameters.wheels.iter().zip(self.commands.targets());
+        for (block, (wheels, targets)) in state.bodies.blocks.iter_mut().zip(wheels) {
+            block.acceleration = block.drive.accelerate(wheels, targets, &block.motion);
         }
     }
 }
