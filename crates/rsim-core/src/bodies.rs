@@ -9,7 +9,7 @@ mod warm_starts;
 use serde::{Deserialize, Serialize};
 
 use crate::blocks::{
-    BALL, LANES, Lanes, VectorLanes, blocks_of, larger, mask_of, place_of, robot, set_bits,
+    BALL, LANES, Lanes, VectorLanes, blocks_of, larger, mask_of, place_of, robot,
 };
 use crate::body_parameters::BodyParameters;
 use crate::drive::{BlockAcceleration, DriveState};
@@ -281,12 +281,8 @@ impl Bodies {
         FastestRobot { speed: most(speed).sqrt(), acceleration: most(gain).sqrt() }
     }
 
-    /// Indices of the robots whose surrounding circle is nearer than `gap` (m) to that of the ball.
-    pub(crate) fn robots_near_ball(
-        &self,
-        parameters: &BodyParameters,
-        gap: f32,
-    ) -> impl Iterator<Item = usize> {
+    /// Robots whose surrounding circle is nearer than `gap` (m) to that of the ball, one bit each.
+    pub(crate) fn robots_near_ball(&self, parameters: &BodyParameters, gap: f32) -> u64 {
         let ball = VectorLanes::splat(self.motion(BALL).position);
         let gap = Lanes::splat(gap + parameters.ball.radius);
         let mut near = 0;
@@ -297,7 +293,7 @@ impl Bodies {
             near |= u64::from(bits.to_bitmask()) << (index * LANES);
         }
         // From bodies to robots.
-        set_bits((near & self.all()) >> robot(0))
+        (near & self.all()) >> robot(0)
     }
 }
 

@@ -15,6 +15,9 @@ use crate::models::ball::{BallModel, Surface};
 use crate::models::config::SimConfig;
 use crate::models::robot::{Drive, RobotModel};
 
+/// Errors of sums of distances, with much to spare, m.
+const ROUNDING: f32 = 1e-4;
+
 /// Parameters of all bodies of a match.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct BodyParameters {
@@ -28,6 +31,8 @@ pub(crate) struct BodyParameters {
     pub(crate) highest: f32,
     /// Robots with a mouth, one bit each.
     pub(crate) mouths: u64,
+    /// Distance between the circles around ball and robot up to which the ball may be in a mouth, m.
+    pub(crate) mouth_reach: f32,
 }
 
 /// Inertia and size of the bodies of a block.
@@ -130,7 +135,9 @@ impl BodyParameters {
         let highest = robots.iter().map(|body| body.model.height).fold(0.0, f32::max);
         let has_mouth = |index: &usize| robots[*index].model.mouth.is_some();
         let mouths = bits_of((0..robots.len()).filter(has_mouth));
-        Self { ball, robots, wheels, inertia, highest, mouths }
+        let reach = |body: &RobotParameters| Some(body.model.mouth_reach()? - body.bounding_radius);
+        let mouth_reach = robots.iter().filter_map(reach).fold(0.0, f32::max) + ROUNDING;
+        Self { ball, robots, wheels, inertia, highest, mouths, mouth_reach }
     }
 
     /// Inverse inertia of a body.

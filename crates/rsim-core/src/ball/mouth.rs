@@ -37,7 +37,7 @@ impl<'a> HeldBall<'a> {
         let (front, radius) = (model.front_distance(), ball_model.radius);
         let offset = position - robot.position;
         // Quick test: most balls are far away.
-        let reach = front + mouth.beam_distance + radius + mouth.mouth_width;
+        let reach = model.mouth_reach()? + radius;
         if offset.length_squared() > reach * reach {
             return None;
         }

@@ -105,6 +105,16 @@ impl BlockWheels {
         }
     }
 
+    /// Wheels of omnidirectional robots.
+    fn all_omni(&self) -> impl Iterator<Item = &Mounted<omni::Wheels>> {
+        self.omni.iter().chain(&self.each_omni)
+    }
+
+    /// Whether the jerk of some robots is limited: only these need the last change of their velocity.
+    fn limits_jerk(&self) -> bool {
+        self.all_omni().any(|Mounted { wheels, .. }| wheels.limits_jerk())
+    }
+
     /// Numbers of each robot by the kind of its wheels: `none` where it has none.
     fn by_kind<const N: usize>(
         &self,
@@ -345,8 +355,7 @@ impl DriveState {
         targets: &BlockTargets,
         motion: &MotionBlock,
     ) -> BlockAcceleration {
-        // Only omnidirectional robots have one.
-        let has_change = wheels.omni.is_some() || wheels.each_omni.is_some();
+        let has_change = wheels.limits_jerk();
         let own = OwnMotion {
             velocity: motion.velocity.seen_from(motion.heading),
             angular_velocity: motion.angular_velocity,
@@ -364,10 +373,7 @@ impl DriveState {
             effect =
                 wheels.effect(*mask, targets, &own, &mut self.tipping).where_else(*mask, &effect);
         }
-        if let Some(Mounted { mask, wheels }) = &wheels.omni {
-            effect = wheels.effect(targets, &own).where_else(*mask, &effect);
-        }
-        if let Some(Mounted { mask, wheels }) = &wheels.each_omni {
+        for Mounted { mask, wheels } in wheels.all_omni() {
             effect = wheels.effect(targets, &own).where_else(*mask, &effect);
         }
         let velocity = effect.velocity.rotated_by(motion.heading);

@@ -132,6 +132,11 @@ impl Wheels {
         [x, y, angular_velocity * factor]
     }
 
+    /// Whether the jerk of some robots is limited.
+    pub(super) fn limits_jerk(&self) -> bool {
+        self.jerk.simd_lt(Lanes::splat(f32::INFINITY)).any()
+    }
+
     /// Effect in a tick of wheels with a target velocity forward and to the left, m/s, and angular velocity, rad/s.
     pub(super) fn effect(&self, [x, y, turn]: &[Lanes; 3], own: &OwnMotion) -> WheelEffect {
         let error = VectorLanes { x: *x, y: *y } - own.velocity;

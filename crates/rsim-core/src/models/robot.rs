@@ -241,6 +241,13 @@ impl RobotModel {
         }
     }
 
+    /// Distance from the center, m, that the center of a ball in the mouth never exceeds by more than the ball's radius;
+    /// `None` without a mouth.
+    pub(crate) fn mouth_reach(&self) -> Option<f32> {
+        let mouth = self.mouth.as_ref()?;
+        Some(self.front_distance() + mouth.beam_distance + mouth.mouth_width)
+    }
+
     /// Moment of inertia about the vertical axis, kg m², of a uniform plate with the body's outline.
     pub(crate) fn inertia(&self) -> f32 {
         match self.body {

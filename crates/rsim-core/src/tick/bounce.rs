@@ -5,7 +5,7 @@
 //! would be had it bounced at the contact.
 
 use crate::ball::rolling::GroundMotion;
-use crate::blocks::{BALL, robot};
+use crate::blocks::{BALL, robot, set_bits};
 use crate::body_parameters::BodyParameters;
 use crate::geometry::motion::Motion;
 use crate::math::Vector;
@@ -66,7 +66,7 @@ fn clear_length(
     length: f32,
 ) -> f32 {
     let (center, radius) = (state.bodies.motion(BALL).position, parameters.ball.radius);
-    let robots = state.bodies.robots_near_ball(parameters, length).map(|index| {
+    let robots = set_bits(state.bodies.robots_near_ball(parameters, length)).map(|index| {
         let motion = state.bodies.motion(robot(index));
         let outline = &parameters.robots[index].outline;
         outline.nearest_at(motion.position, motion.rotation(), center)

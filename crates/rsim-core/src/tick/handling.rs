@@ -38,6 +38,10 @@ pub(super) fn handle_ball(
     if commands.handling.is_empty() {
         return;
     }
+    let near = state.bodies.robots_near_ball(parameters, parameters.mouth_reach);
+    if near == 0 {
+        return;
+    }
     let ball = state.bodies.motion(BALL);
     let ground = GroundMotion { velocity: ball.velocity, spin: state.ball.spin };
     let mut all = Effect {
@@ -50,6 +54,9 @@ pub(super) fn handle_ball(
     let mut handled = false;
     for command in &commands.handling {
         let index = usize::from(command.robot);
+        if near >> index & 1 == 0 {
+            continue;
+        }
         let kicks = command.kicks() && state.bodies.recharging(index) == 0.0;
         if !kicks && (command.dribbler == 0.0 || !state.ball.is_down()) {
             continue;

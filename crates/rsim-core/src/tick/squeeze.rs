@@ -5,7 +5,7 @@
 //! thrown back. The inertia of a jammed ball does not matter. So the ball gets the common velocity of
 //! the bodies that jam it, and, as long as it is jammed, a mass in the solver that passes pushes on.
 
-use crate::blocks::{BALL, robot};
+use crate::blocks::{BALL, robot, set_bits};
 use crate::bodies::{Bodies, FastestRobot};
 use crate::body_parameters::{BodyParameters, RobotParameters};
 use crate::engine::SqueezedBall;
@@ -128,10 +128,12 @@ impl Sides {
         reach: f32,
     ) -> Option<Self> {
         let (center, radius) = (bodies.motion(BALL).position, parameters.ball.radius);
-        let mut near = bodies.robots_near_ball(parameters, reach).peekable();
-        near.peek()?; // in most ticks
+        let near = bodies.robots_near_ball(parameters, reach);
+        if near == 0 {
+            return None; // in most ticks
+        }
         let mut sides = Self { places: [Side::default(); MAX_SIDES], count: 0 };
-        for index in near {
+        for index in set_bits(near) {
             let body = &parameters.robots[index];
             if height < body.model.height {
                 sides.add(Side::of_robot(bodies, index, body, center, radius, tick));
