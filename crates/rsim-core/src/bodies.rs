@@ -8,9 +8,7 @@ mod warm_starts;
 
 use serde::{Deserialize, Serialize};
 
-use crate::blocks::{
-    BALL, LANES, Lanes, VectorLanes, blocks_of, larger, mask_of, place_of, robot,
-};
+use crate::blocks::{BALL, LANES, Lanes, VectorLanes, blocks_of, larger, mask_of, place_of, robot};
 use crate::body_parameters::BodyParameters;
 use crate::drive::{BlockAcceleration, DriveState};
 use crate::geometry::motion::Motion;

@@ -184,7 +184,8 @@ impl Drives<'_> {
         let acting = sent.acting(now, timeout);
         if self.acting.is_none_or(|last| !is_same(last, acting)) {
             let commands = acting.unwrap_or_default();
-            let read = |(block, wheels)| BlockCommands::read(commands, columns, block).targets(wheels);
+            let read =
+                |(block, wheels)| BlockCommands::read(commands, columns, block).targets(wheels);
             self.targets.clear();
             self.targets.extend(parameters.wheels.iter().enumerate().map(read));
             self.acting = Some(acting);

@@ -108,3 +108,40 @@ pub(super) fn handle_ball(
         state.ball.spin += all.spin;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ball::mouth::HeldBall;
+    use crate::geometry::arena::walls;
+    use crate::geometry::motion::Motion;
+    use crate::models::robot::RobotModel;
+    use crate::scenes;
+
+    #[test]
+    fn every_ball_in_a_mouth_is_within_its_reach() {
+        let models = RobotModel::PRESETS.into_iter().filter(|model| model.mouth.is_some());
+        let mut held = 0;
+        for model in models {
+            let mut config = scenes::ssl(2, 0);
+            config.blue = vec![RobotModel::SSL_GENERIC, model];
+            let parameters = BodyParameters::of(&config);
+            let walls = walls(&config.field);
+            let mut state = State::new(&config, &parameters, &walls).boxed();
+            let bodies = &mut state.bodies;
+            let motion = Motion::at_rest(Vector::ZERO, Vector::X);
+            bodies.set_motion(robot(0), &Motion { position: Vector::new(5.0, 0.0), ..motion });
+            bodies.set_motion(robot(1), &motion);
+            for (x, y) in (0..200_u8).flat_map(|x| (0..100_u8).map(move |y| (x, y))) {
+                let place = Vector::new(f32::from(x), f32::from(y) - 50.0) * 0.001;
+                bodies.set_ball(place, Vector::ZERO);
+                let model = &parameters.robots[1].model;
+                let ball = HeldBall::find(model, &motion, &parameters.ball, place, 0.0);
+                let near = bodies.robots_near_ball(&parameters, parameters.mouth_reach);
+                assert!(ball.is_none() || near == 0b10, "{}: {place} {near:b}", model.name);
+                held += u32::from(ball.is_some());
+            }
+        }
+        assert!(held > 1_000, "{held}");
+    }
+}

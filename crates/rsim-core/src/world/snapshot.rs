@@ -8,7 +8,7 @@ use crate::error::SnapshotError;
 use crate::models::config::SimConfig;
 
 /// Beginning of all snapshots. The last character counts the layouts of states that had the same physics.
-const MAGIC: [u8; 8] = *b"rsimsnad";
+const MAGIC: [u8; 8] = *b"rsimsnae";
 /// Part of the beginning that all layouts share.
 const ANY_LAYOUT: &[u8] = b"rsimsna";
 const HEADER_SIZE: usize = 28;
