@@ -38,13 +38,6 @@ pub(super) struct Link {
     commands: Vec<f32>,
 }
 
-/// Robots for which something changed, one bit each, and the control step whose command it was.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Change {
-    pub(super) robots: u64,
-    pub(super) number: u64,
-}
-
 impl Link {
     /// Fetches what was heard and what is on its way.
     pub(super) fn fetch(&self, fetched: &mut Fetched) {
@@ -97,52 +90,46 @@ impl Link {
     }
 
     /// Takes in what has arrived at the start of tick `now`, and stops robots that have waited for `timeout`
-    /// ticks. Returns what changed.
-    pub(super) fn receive(&mut self, now: u64, timeout: Option<u64>) -> Option<Change> {
+    /// ticks. If anything changed, returns the number of the control step whose commands robots obey from now on.
+    pub(super) fn receive(&mut self, now: u64, timeout: Option<u64>) -> Option<u64> {
         if now < self.idle_until {
             return None;
         }
-        let mut change: Option<Change> = None;
+        let mut obeyed = None;
         let arrived = self.under_way.iter().take_while(|sent| sent.due <= now).count();
         for nth in 0..arrived {
             let Sent { number, lost, .. } = self.under_way[nth];
             self.hear(now, lost, nth);
             self.stopped &= lost;
-            let robots = !lost | change.map_or(0, |change| change.robots);
-            change = Some(Change { robots, number });
+            obeyed = Some(number);
         }
         remove_first(&mut self.under_way, arrived);
         remove_first(&mut self.queued, arrived * self.commands.len());
         self.idle_until = self.under_way.first().map_or(u64::MAX, |next| next.due);
-        let Some(timeout) = timeout else { return change };
-        if now - self.waiting_since >= timeout {
-            change = self.stop_waiting(now, timeout, change);
+        let Some(timeout) = timeout else { return obeyed };
+        if now - self.waiting_since >= timeout && self.stop_waiting(now, timeout) {
+            obeyed = obeyed.or(Some(self.number));
         }
         self.idle_until = self.idle_until.min(self.waiting_since + timeout);
-        change
+        obeyed
     }
 
-    /// Stops robots that have waited for `timeout` ticks. Returns what changed, with the earlier `change`.
-    fn stop_waiting(
-        &mut self,
-        now: u64,
-        timeout: u64,
-        mut change: Option<Change>,
-    ) -> Option<Change> {
+    /// Stops robots that have waited for `timeout` ticks. Returns whether there were any.
+    fn stop_waiting(&mut self, now: u64, timeout: u64) -> bool {
+        let mut any = false;
         for robot in 0..self.heard.len() {
             if now - self.heard[robot] >= timeout && self.stopped >> robot & 1 == 0 {
                 self.stopped |= 1 << robot;
                 let columns = self.columns();
                 self.commands[robot * columns..(robot + 1) * columns].fill(0.0);
-                let (robots, number) = change.map_or((0, self.number), |c| (c.robots, c.number));
-                change = Some(Change { robots: robots | 1 << robot, number });
+                any = true;
             }
         }
         // A stopped robot that hears a command again does so later than now.
         let going =
             self.heard.iter().enumerate().filter(|(robot, _)| self.stopped >> robot & 1 == 0);
         self.waiting_since = going.map(|(_, heard)| *heard).min().unwrap_or(now);
-        change
+        any
     }
 
     /// Lets robots whose commands are not `lost` hear the `nth` of those on their way.
@@ -188,13 +175,11 @@ mod tests {
                 let command = u16::try_from(now / 5).expect("few") + 1;
                 link.send(now, TICK, (sensing, 3), &[f32::from(command)]);
             }
-            if link.receive(now, None).is_some_and(|change| change.robots & 1 == 1) {
-                #[expect(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    reason = "small"
-                )]
-                obeyed.push((link.commands()[0] as u16, now));
+            link.receive(now, None);
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small")]
+            let command = link.commands()[0] as u16;
+            if command != obeyed.last().map_or(0, |(last, _)| *last) {
+                obeyed.push((command, now));
             }
         }
         obeyed
@@ -240,14 +225,15 @@ mod tests {
         let lost = Sensing { command_loss: 1.0, ..Sensing::OFF };
         let mut link = Link::new(2, 1, 1);
         link.send(0, TICK, (&Sensing::OFF, 0), &[7.0, 8.0]);
-        assert_eq!(link.receive(0, Some(20)).map(|change| change.robots & 3), Some(3));
+        assert_eq!(link.receive(0, Some(20)), Some(0));
+        assert_eq!(link.commands(), [7.0, 8.0]);
         for now in 1..20 {
             link.send(now, TICK, (&lost, 0), &[1.0, 1.0]);
             link.receive(now, Some(20));
             assert_eq!(link.commands(), [7.0, 8.0]);
         }
-        let change = link.receive(20, Some(20)).expect("they stop");
-        assert_eq!((change.robots & 3, link.commands()), (3, &[0.0, 0.0][..]));
+        assert!(link.receive(20, Some(20)).is_some(), "they stop");
+        assert_eq!(link.commands(), [0.0, 0.0]);
         assert_eq!(link.receive(21, Some(20)), None);
         link.send(22, TICK, (&Sensing::OFF, 0), &[5.0, 6.0]);
         link.receive(22, Some(20));

@@ -44,7 +44,7 @@ use crate::senses::fetch::Fetched;
 use crate::senses::frames::CameraFrame;
 use crate::senses::held::Beams;
 use crate::senses::link::Link;
-use crate::senses::queue::places;
+use crate::senses::queue::most_under_way;
 use crate::senses::random::{Draws, Purpose};
 use crate::senses::reports::{Reported, Reports};
 use crate::senses::vision::Vision;
@@ -93,8 +93,8 @@ impl Senses {
         // Memory for all that is on its way from the start: what a match has lies in one place then, and comes into a
         // processor's cache together.
         let step = watched.config.time_step;
-        let reports = places(sensing.feedback_delay, step) + 1;
-        let commands = places(sensing.command_delay + sensing.command_jitter, step) + 1;
+        let reports = most_under_way(sensing.feedback_delay, step);
+        let commands = most_under_way(sensing.command_delay + sensing.command_jitter, step);
         let mut draws = Draws::of(key, Purpose::Episode, 0);
         let mut visions = vec![Vision::new(watched.config, &sensing, key, &mut draws)];
         if sensing.own_cameras >= 0.5 {
@@ -159,14 +159,14 @@ impl Senses {
         parameters: &BodyParameters,
         state: &mut State,
     ) {
-        let change = self.link.receive(self.ticks, self.timeout);
-        if change.is_none() && !self.actuators.are_stale() {
+        let arrived = self.link.receive(self.ticks, self.timeout);
+        if arrived.is_none() && !self.actuators.are_stale() {
             return;
         }
         #[expect(clippy::cast_possible_truncation, reason = "battery time needs no more digits")]
         let seconds = self.now(&setup.config) as f32;
         let heard = Heard {
-            arrived: change.map(|change| change.number),
+            arrived,
             commands: self.link.commands(),
             columns: setup.command_columns.max(1),
             seconds,

@@ -1,10 +1,11 @@
 //! Queues of what is on its way. They mostly empty at once, which costs less than the general case.
 
-/// Number of things on their way that take up to a time (s) each, where one sets out each `period`, s.
-pub(super) fn places(seconds: f32, period: f32) -> usize {
+/// Maximum number of things on their way that take up to a time (s) each, where one sets out each `period`, s: with one
+/// that sets out before the first has left.
+pub(super) fn most_under_way(seconds: f32, period: f32) -> usize {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative")]
     let whole = (seconds / period) as usize;
-    whole + 1
+    whole + 2
 }
 
 /// Removes the first `count` things, or all if there are fewer.
@@ -23,8 +24,8 @@ mod tests {
 
     #[test]
     fn there_are_places_for_all_that_are_under_way() {
-        for (seconds, expected) in [(0.0, 1), (0.02, 1), (0.03, 2), (0.26, 11)] {
-            assert_eq!(places(seconds, 0.025), expected, "{seconds}");
+        for (seconds, expected) in [(0.0, 2), (0.02, 2), (0.03, 3), (0.26, 12)] {
+            assert_eq!(most_under_way(seconds, 0.025), expected, "{seconds}");
         }
     }
 

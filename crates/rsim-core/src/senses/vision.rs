@@ -12,7 +12,7 @@ use crate::senses::exposed::Film;
 use crate::senses::fetch::Fetched;
 use crate::senses::frames::{CameraFrame, Frames};
 use crate::senses::held::Beams;
-use crate::senses::queue::places;
+use crate::senses::queue::most_under_way;
 use crate::senses::random::Draws;
 use crate::senses::tracker::Tracker;
 use crate::state::State;
@@ -35,7 +35,7 @@ impl Vision {
         let (robots, period) = (config.n_robots(), cameras.period());
         // Those on their way, those of a step, and the one to come.
         let seconds = sensing.delay + sensing.delay_jitter + config.time_step;
-        let frames = Frames::new(blocks_of(robots), places(seconds, period) + 1);
+        let frames = Frames::new(blocks_of(robots), most_under_way(seconds, period));
         let tracker = Tracker::new(robots, sensing, period);
         let has_driven = sensing.forecast >= 0.5 && sensing.tracker >= 0.5;
         let driven = has_driven.then(|| Box::new(DrivenRobots::new(robots, sensing, period)));
