@@ -33,6 +33,7 @@ from rsoccer._core import (
     golden_hashes,
     normalized,
     pooled_moments,
+    write_clipped,
 )
 from rsoccer.arrays import Array, Floats
 from tools.paths import ROOT
@@ -375,6 +376,32 @@ def test_limits_hold_on_both_sides_and_nan_stays() -> None:
         frozen = numbers.copy()
         frozen.flags.writeable = False
         clip_in_place(frozen, np.ones(3, np.float32))
+
+
+def test_clipped_values_are_written_to_their_columns_alone() -> None:
+    values = np.array([[[-9.0, 0.5], [np.nan, -0.0]]], np.float32)
+    bounds = np.array([2.0, 1.0], np.float32)
+    out = np.full((1, 2, 4), 7.0, np.float32)
+    write_clipped(values, bounds, out, 1)
+    expected = np.array([[[7.0, -2.0, 0.5, 7.0], [7.0, np.nan, -0.0, 7.0]]], np.float32)
+    assert out.tobytes() == expected.tobytes()
+    write_clipped(out[..., 1:3], bounds, out, 2)  # from the memory that it writes to
+    assert out[0, :, 2:].tobytes() == expected[0, :, 1:3].tobytes()
+    before = out.copy()
+    for first in (-1, 3):
+        with pytest.raises(ValueError, match=r"first must .*got " + str(first)):
+            write_clipped(values, bounds, out, first)
+    with pytest.raises(ValueError, match=r"bounds must have shape \(2,\), got \(3,\)"):
+        write_clipped(values, np.ones(3, np.float32), out, 0)
+    with pytest.raises(ValueError, match="bounds must be 0 or above"):
+        write_clipped(values, -bounds, out, 0)
+    with pytest.raises(ValueError, match=r"out must have shape \(1, 2, 4\), got \(2, 1, 4\)"):
+        write_clipped(values, bounds, np.zeros((2, 1, 4), np.float32), 0)
+    with pytest.raises(ValueError, match="out must be C-contiguous"):
+        write_clipped(values, bounds, np.zeros((4, 2, 1), np.float32).T, 0)
+    with pytest.raises(TypeError, match="values must be an array of float32, got float64"):
+        write_clipped(values.astype(np.float64), bounds, out, 0)
+    assert out.tobytes() == before.tobytes()
 
 
 def test_clipped_returns_a_copy_or_none_for_the_caller_to_handle() -> None:

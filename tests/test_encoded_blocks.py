@@ -27,7 +27,7 @@ class Counted:
         self.calls += 1
         out[..., :6] = np.arange(6)
         if bounds is not None:
-            np.clip(out, -bounds, bounds, out=out)
+            np.clip(out[..., :6], -bounds, bounds, out=out[..., :6])
 
     def blocks(self) -> EncodedBlocks:
         return EncodedBlocks(self.encode, self.play, LAYOUT)
@@ -83,6 +83,9 @@ def test_blocks_of_other_names_are_added_without_reading() -> None:
     assert joined.write(out, np.full(8, 4.5, np.float32))
     assert out[2, 5].tolist() == [0.0, 1.0, 2.0, 3.0, 4.0, 4.5, 4.5, 4.5]
     assert not joined.write(np.empty((3, 6, 6), np.float32), np.ones(6, np.float32))
+    doubles = encoder.blocks() | {"c": np.full((3, 6, 2), 9.0)[..., ::-1]}
+    assert doubles.write(out, np.full(8, 4.0, np.float32))
+    assert out[0, 3].tolist() == [0.0, 1.0, 2.0, 3.0, 4.0, 4.0, 4.0, 4.0]
     assert list(joined) == ["a", "b", "c"]
     assert joined["c"] is more["c"]
 

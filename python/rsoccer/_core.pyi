@@ -66,6 +66,7 @@ __all__ = [
     "referee_rules",
     "referee_values",
     "uniform",
+    "write_clipped",
 ]
 
 COMMANDS: dict[str, int]
@@ -1569,6 +1570,27 @@ def clip_in_place(values: NDArray[np.float32], bounds: NDArray[np.float32]) -> N
     Raises:
         TypeError: An array is not float32.
         ValueError: An array has another shape, `values` is not writeable, or a bound is below 0.
+    """
+
+def write_clipped(
+    values: NDArray[np.float32],
+    bounds: NDArray[np.float32],
+    out: NDArray[np.float32],
+    first: int,
+) -> None:
+    """Write values, clipped to [-bounds, bounds], to some columns of an array.
+
+    Args:
+        values: Values (n, observers, k), float32.
+        bounds: Bounds (k,), float32, each 0 or above.
+        out: Output (n, observers, o), float32, C-contiguous and writeable. Other columns stay as
+            they are.
+        first: First of the k columns, 0 to o - k.
+
+    Raises:
+        TypeError: An array is not float32.
+        ValueError: An array has another shape, `out` is not writeable or not C-contiguous, a bound
+            is below 0, or `first` leaves too few columns.
     """
 
 def clip_actions(value: object, shape: tuple[int, ...]) -> NDArray[np.float32] | None:

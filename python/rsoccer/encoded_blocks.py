@@ -9,7 +9,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from rsoccer._core import clip_in_place
+from rsoccer._core import write_clipped
 from rsoccer.arrays import Floats
 from rsoccer.play import Play
 
@@ -108,12 +108,14 @@ class EncodedBlocks(UserDict[str, Floats]):
         added = [block.reshape(*rows, -1) for block in self._added.values()]
         if out.shape[-1] != self._size + sum(block.shape[-1] for block in added):
             return False
-        self._encode(self._play, out, None)
         first = self._size
+        self._encode(self._play, out, bounds[:first])
         for block in added:
-            out[..., first : first + block.shape[-1]] = block
-            first += block.shape[-1]
-        clip_in_place(out, bounds)
+            last = first + block.shape[-1]
+            # Task authors' blocks may have other types.
+            values = np.asarray(block, np.float32)
+            write_clipped(values, bounds[first:last], out, first)
+            first = last
         return True
 
     @property

@@ -3,12 +3,14 @@
 use std::ops::Neg;
 
 use numpy::{
-    Ix1, IxDyn, PyArray, PyArrayMethods, PyReadonlyArray, PyReadwriteArray, PyUntypedArrayMethods,
+    Ix1, Ix3, IxDyn, PyArray, PyArrayMethods, PyReadonlyArray, PyReadwriteArray,
+    PyUntypedArrayMethods,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::arrays::{self, readable, sizes, writeable};
+use crate::arrays::{self, Input, readable, sizes, writeable};
+use crate::config::count;
 
 /// Clips values (n, observers, o) to [-bounds, bounds] in place; `bounds` is (o,).
 #[pyfunction]
@@ -18,12 +20,46 @@ pub(crate) fn clip_in_place(
     bounds: &Bound<'_, PyAny>,
 ) -> PyResult<()> {
     let [n, observers, size] = sizes("values", values)?;
-    let mut values: PyReadwriteArray<'_, f32, numpy::Ix3> =
+    let mut values: PyReadwriteArray<'_, f32, Ix3> =
         writeable("values", values, &[n, observers, size])?;
     let bounds: PyReadonlyArray<'_, f32, Ix1> = readable("bounds", bounds, &[size])?;
     let (bounds, values) = (arrays::values(&bounds), values.as_slice_mut()?);
     check_bounds(&bounds)?;
     py.detach(|| values.chunks_exact_mut(size.max(1)).for_each(|row| clip_row(row, &bounds)));
+    Ok(())
+}
+
+/// Writes values (n, observers, k), clipped to [-bounds, bounds], to the columns of `out` (n, observers, o) from `first`
+/// on; `bounds` is (k,).
+#[pyfunction]
+pub(crate) fn write_clipped(
+    py: Python<'_>,
+    values: &Bound<'_, PyAny>,
+    bounds: &Bound<'_, PyAny>,
+    out: &Bound<'_, PyAny>,
+    first: i64,
+) -> PyResult<()> {
+    let [n, observers, size] = sizes("values", values)?;
+    let values: Input<'_, f32, Ix3> = Input::new("values", values, &[n, observers, size], out)?;
+    let bounds: PyReadonlyArray<'_, f32, Ix1> = readable("bounds", bounds, &[size])?;
+    let [_, _, columns] = sizes("out", out)?;
+    let mut out: PyReadwriteArray<'_, f32, Ix3> = writeable("out", out, &[n, observers, columns])?;
+    let first = count("first", first)?;
+    if first.saturating_add(size) > columns {
+        return Err(PyValueError::new_err(format!(
+            "first must leave {size} of the {columns} columns of out, got {first}"
+        )));
+    }
+    let (values, bounds, out) = (values.values(), arrays::values(&bounds), out.as_slice_mut()?);
+    check_bounds(&bounds)?;
+    py.detach(|| {
+        let rows = out.chunks_exact_mut(columns.max(1)).zip(values.chunks_exact(size.max(1)));
+        for (row, values) in rows {
+            for ((out, value), bound) in row[first..].iter_mut().zip(values).zip(&*bounds) {
+                *out = clip(*value, *bound);
+            }
+        }
+    });
     Ok(())
 }
 

@@ -29,7 +29,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _core {
     #[pymodule_export]
-    use crate::bounds::{clip_actions, clip_in_place};
+    use crate::bounds::{clip_actions, clip_in_place, write_clipped};
     #[pymodule_export]
     use crate::config::SimConfig;
     #[pymodule_export]
