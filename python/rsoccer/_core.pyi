@@ -2248,10 +2248,12 @@ class VisionTracker:
         balls: NDArray[np.float32],
         robots: NDArray[np.float32],
         cut: list[int] | None = None,
+        camera: int = 0,
     ) -> bool:
         """Take in the detections of a camera.
 
-        Cameras with the same time are of one instant. A ball that was seen before the mouth of a
+        Cameras see a body at places that differ by their errors, so that it is followed by one of
+        them until that one has missed it for one and a half periods. A ball that was seen before the mouth of a
         robot whose break beam is cut moves with it, also while no camera sees it.
 
         Args:
@@ -2261,6 +2263,7 @@ class VisionTracker:
             robots: Index in a state row, position (m) and cosine and sine of the heading of each
                 robot (m, 5), float32.
             cut: Indices of the robots whose break beam is cut; None where robots report nothing.
+            camera: Index of the camera, 0 to 255.
 
         Returns:
             False if the frame is older than the last one; then nothing has changed.

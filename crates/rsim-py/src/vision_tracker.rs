@@ -47,22 +47,26 @@ impl VisionTracker {
         (0..self.0.config().n_robots()).filter(|&robot| self.0.has_robot(robot)).collect()
     }
 
-    #[pyo3(signature = (time, balls, robots, cut = None))]
+    #[pyo3(signature = (time, balls, robots, cut = None, camera = 0))]
     fn take(
         &mut self,
         time: f64,
         balls: &Bound<'_, PyAny>,
         robots: &Bound<'_, PyAny>,
         cut: Option<Vec<usize>>,
+        camera: i64,
     ) -> PyResult<bool> {
         finite_time(time)?;
+        let camera = u8::try_from(camera).map_err(|_| {
+            PyValueError::new_err(format!("camera must be from 0 to 255, got {camera}"))
+        })?;
         let balls = numbers("balls", balls, 2)?;
         let balls: Vec<[f32; 2]> = balls.chunks_exact(2).map(|ball| [ball[0], ball[1]]).collect();
         let seen = numbers("robots", robots, ROBOT_COLUMNS)?;
         let robots = seen.chunks_exact(ROBOT_COLUMNS).map(|columns| self.robot(columns));
         let robots = robots.collect::<PyResult<Vec<SeenRobot>>>()?;
         let cut = cut.map(|cut| self.bits("cut", &cut)).transpose()?;
-        Ok(self.0.take(time, &balls, &robots, cut))
+        Ok(self.0.take(camera, time, &balls, &robots, cut))
     }
 
     fn send(

@@ -21,6 +21,8 @@ from rsoccer.protocols.schemas import vision_pb2
 
 Named = tuple[Identity, tuple[float, float]]
 """A robot as a message names it, and its place on the wire, m."""
+CAMERAS: Final = 256
+"""Number of cameras that a tracker tells apart."""
 ABSENT_SECONDS: Final = 0.5
 """Time without a sight after which a robot counts as absent, s."""
 AROUND: Final = 3.0
@@ -226,7 +228,7 @@ class DetectionSight(Sight):
         self._count(FAR_ROBOTS, int((~near[1]).sum()))
         self._count(FAR_BALLS, int((~near[0]).sum()))
         balls, robots = balls[near[0]], robots[near[1]]
-        self._tracker.take(time, balls, robots, self.cut)
+        self._tracker.take(time, balls, robots, self.cut, detection.camera_id % CAMERAS)
         self.has_ball = self._tracker.has_ball
         groups = ((BLUE, detection.robots_blue), (YELLOW, detection.robots_yellow))
         self._note(

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::motion::rotated;
+use crate::geometry::motion::direction as direction_of;
 use crate::math::Vector;
 use crate::streams::{STRIDE, mixed, normals};
 
@@ -41,7 +41,7 @@ impl KickErrors {
         let [speed, direction] = normals(mixed(self.word.wrapping_add(STRIDE.wrapping_mul(nth))));
         Kicker {
             gain: self.gain * (1.0 + self.speed_noise * speed).max(0.0),
-            direction: rotated(Vector::X, self.direction_noise * direction),
+            direction: direction_of(self.direction_noise * direction),
         }
     }
 }

@@ -34,6 +34,12 @@ pub(crate) fn rotation(heading: Vector) -> Rotation {
     Rotation { re: heading.x, im: heading.y }
 }
 
+/// The unit vector in the direction of an angle, rad: the same on every platform.
+pub(crate) fn direction(angle: f32) -> Vector {
+    let (sin, cos) = libm::sincosf(angle);
+    Vector::new(cos, sin)
+}
+
 /// A heading rotated by `angle`, a fraction of a radian, to first order as the solver rotates bodies.
 pub(crate) fn rotated(heading: Vector, angle: f32) -> Vector {
     Vector::new(heading.x - angle * heading.y, heading.y + angle * heading.x).normalize()

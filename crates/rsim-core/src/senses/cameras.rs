@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::blocks::{
     BALL, LANES, Lanes, VectorLanes, lanes_of_robots, mask_of_bits, robot, robot_at, set_bits,
 };
-use crate::geometry::motion::Motion;
+use crate::geometry::motion::{Motion, direction};
 use crate::math::Vector;
 use crate::models::config::SimConfig;
 use crate::models::sensing::Sensing;
@@ -14,7 +14,9 @@ use crate::senses::detections::{BallMotion, DetectedBall, DetectedBlock, Detecte
 use crate::senses::exposed::{Exposed, ExposureId, Film};
 use crate::senses::fetch::Fetched;
 use crate::senses::frames::Frames;
+use crate::senses::jitter::Jitter;
 use crate::senses::random::{Draws, PoseNoise, Purpose};
+use crate::senses::track::turned;
 use crate::senses::visibility::{Lens, Obstacle};
 use crate::state::State;
 
@@ -112,6 +114,11 @@ impl Cameras {
         Self { all, period, phase, exposures: 0, next: phase, due }
     }
 
+    /// Number of cameras.
+    pub(super) fn count(&self) -> usize {
+        self.all.len()
+    }
+
     /// Number of ticks at whose end the next frame is exposed.
     pub(super) fn due(&self) -> u64 {
         self.due
@@ -157,9 +164,9 @@ impl Cameras {
             if draws.happens(sensing.frame_loss) {
                 continue;
             }
-            let jitter = f64::from(sensing.delay_jitter);
-            let jitter = if jitter > 0.0 { jitter * f64::from(draws.deviation()) } else { 0.0 };
-            let due = (time + f64::from(sensing.delay) + jitter).max(time);
+            let jitter = Jitter::of(sensing.delay_jitter, sensing.delay, self.period());
+            let jitter = jitter.of_nth(number, key, Purpose::FrameDelay, &mut draws);
+            let due = (time + f64::from(sensing.delay) + f64::from(jitter)).max(time);
             let mut of_ball = Some(add_robots(exposed, sensing, &mut draws, frames));
             for camera in &self.all {
                 let noise = (&mut draws, &mut of_ball);
@@ -224,8 +231,10 @@ fn add_robots(
             deviations[BALL] = sensing.robot_position_noise;
         }
         let position = true_motion.position + place;
-        let heading = true_motion.heading;
-        let heading = heading + heading.perp() * turn;
+        let mut heading = true_motion.heading;
+        if sensing.heading_noise > 0.0 {
+            heading = turned(heading, turn);
+        }
         blocks[block] = DetectedBlock { position, heading, ..DetectedBlock::NONE };
     }
     if knows_motions(sensing) {
@@ -404,10 +413,10 @@ impl Camera {
         is_misread: bool,
     ) -> DetectedRobot {
         let noise = draws.normals(sensing.robot_position_noise);
-        let turned = draws.normal(sensing.heading_noise);
+        let turn = draws.normal(sensing.heading_noise);
         let mut heading = motion.heading;
-        if turned != 0.0 {
-            heading += heading.perp() * turned;
+        if turn != 0.0 {
+            heading = heading.rotate(direction(turn));
         }
         if is_misread {
             heading = misread_heading(heading, draws);

@@ -27,6 +27,8 @@ pub(super) struct DetectedBlock {
     pub(super) bodies: u8,
     /// Indices of the cameras.
     pub(super) cameras: [u8; LANES],
+    /// Bodies that another camera has begun to follow, one bit each: their places have moved by the cameras' errors.
+    pub(super) moved: u8,
 }
 
 /// A robot as one more camera sees it.
@@ -49,6 +51,7 @@ impl DetectedBlock {
         heading: VectorLanes::ZERO,
         bodies: 0,
         cameras: [0; LANES],
+        moved: 0,
     };
 
     /// Sets the detection of a robot.

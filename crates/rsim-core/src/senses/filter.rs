@@ -74,6 +74,11 @@ impl Filter {
         Lanes::ONE / larger(time, Lanes::splat(self.period))
     }
 
+    /// Time of a number of periods, s.
+    pub(super) fn after(&self, periods: f32) -> f32 {
+        periods * self.period
+    }
+
     /// The gains for bodies of which `counts` detections have come since a push.
     pub(super) fn gains(&self, counts: Lanes) -> Gains {
         let (alpha, beta) =

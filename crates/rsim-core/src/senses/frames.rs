@@ -31,9 +31,14 @@ impl<'a> Frame<'a> {
     pub(super) fn of_positions(
         time: f64,
         balls: &'a [DetectedBall],
-        (blocks, again): (&'a [DetectedBlock], &'a [DetectedRobot]),
+        blocks: &'a [DetectedBlock],
     ) -> Self {
-        Self { time, balls, blocks, again, ball_motions: &[], velocities: &[] }
+        Self { time, balls, blocks, again: &[], ball_motions: &[], velocities: &[] }
+    }
+
+    /// The same frame with these robots, each of which one camera has detected.
+    pub(super) fn with_robots(self, blocks: &'a [DetectedBlock]) -> Self {
+        Self { blocks, again: &[], ..self }
     }
 
     /// The balls with their motions; those of a body at rest where they are unknown.

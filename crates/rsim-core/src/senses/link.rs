@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::models::sensing::Sensing;
 use crate::senses::fetch::Fetched;
+use crate::senses::jitter::Jitter;
 use crate::senses::queue::remove_first;
 use crate::senses::random::{Draws, Purpose};
 
@@ -61,19 +62,18 @@ impl Link {
         }
     }
 
-    /// Sends the commands of a control step at the start of tick `now`. `tick` is its length, s.
+    /// Sends the commands of a control step at the start of tick `now`. The lengths are those of a tick and of a step, s.
     pub(super) fn send(
         &mut self,
         now: u64,
-        tick: f32,
+        [tick, step]: [f32; 2],
         (sensing, key): (&Sensing, u64),
         commands: &[f32],
     ) {
         let mut draws = Draws::of(key, Purpose::Command, self.number);
-        let mut ticks = sensing.command_delay / tick;
-        if sensing.command_jitter > 0.0 {
-            ticks = (ticks + draws.deviation() * sensing.command_jitter / tick).max(0.0);
-        }
+        let jitter = Jitter::of(sensing.command_jitter, sensing.command_delay, step);
+        let jitter = jitter.of_nth(self.number, key, Purpose::CommandDelay, &mut draws);
+        let mut ticks = ((sensing.command_delay + jitter) / tick).max(0.0);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 2 s")]
         let whole = |ticks: f32| ticks as u32;
         #[expect(clippy::cast_precision_loss, reason = "0 to 2 s")]
@@ -165,6 +165,7 @@ mod tests {
     use super::*;
 
     const TICK: f32 = 0.005;
+    const LENGTHS: [f32; 2] = [TICK, 5.0 * TICK];
 
     /// Ticks at whose start the robot of a link obeys each of `count` commands, one in five ticks.
     fn arrivals(sensing: &Sensing, count: u16) -> Vec<(u16, u64)> {
@@ -173,7 +174,7 @@ mod tests {
         for now in 0..u64::from(count) * 5 {
             if now % 5 == 0 {
                 let command = u16::try_from(now / 5).expect("few") + 1;
-                link.send(now, TICK, (sensing, 3), &[f32::from(command)]);
+                link.send(now, LENGTHS, (sensing, 3), &[f32::from(command)]);
             }
             link.receive(now, None);
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small")]
@@ -224,18 +225,18 @@ mod tests {
     fn a_robot_that_hears_nothing_stops_in_time_and_obeys_again() {
         let lost = Sensing { command_loss: 1.0, ..Sensing::OFF };
         let mut link = Link::new(2, 1, 1);
-        link.send(0, TICK, (&Sensing::OFF, 0), &[7.0, 8.0]);
+        link.send(0, LENGTHS, (&Sensing::OFF, 0), &[7.0, 8.0]);
         assert_eq!(link.receive(0, Some(20)), Some(0));
         assert_eq!(link.commands(), [7.0, 8.0]);
         for now in 1..20 {
-            link.send(now, TICK, (&lost, 0), &[1.0, 1.0]);
+            link.send(now, LENGTHS, (&lost, 0), &[1.0, 1.0]);
             link.receive(now, Some(20));
             assert_eq!(link.commands(), [7.0, 8.0]);
         }
         assert!(link.receive(20, Some(20)).is_some(), "they stop");
         assert_eq!(link.commands(), [0.0, 0.0]);
         assert_eq!(link.receive(21, Some(20)), None);
-        link.send(22, TICK, (&Sensing::OFF, 0), &[5.0, 6.0]);
+        link.send(22, LENGTHS, (&Sensing::OFF, 0), &[5.0, 6.0]);
         link.receive(22, Some(20));
         assert_eq!(link.commands(), [5.0, 6.0]);
     }

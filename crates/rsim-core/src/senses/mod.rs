@@ -12,8 +12,10 @@ mod driven;
 pub(crate) mod exposed;
 pub(crate) mod fetch;
 mod filter;
+mod followed;
 pub(crate) mod frames;
 mod held;
+mod jitter;
 mod link;
 mod noise;
 mod queue;
@@ -149,7 +151,8 @@ impl Senses {
             self.sent.forget_before(oldest.max(acts - MAX_FORECAST));
             self.sent.add(acts, commands);
         }
-        self.link.send(self.ticks, config.tick, (&self.sensing, self.key), commands);
+        let lengths = [config.tick, config.time_step];
+        self.link.send(self.ticks, lengths, (&self.sensing, self.key), commands);
     }
 
     /// Lets robots hear what arrives at the start of a tick, and obey it.

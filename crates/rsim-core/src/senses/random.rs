@@ -20,6 +20,9 @@ pub(super) enum Purpose {
     Command = 4,
     /// A restart of the trackers.
     Look = 5,
+    /// Delays of frames, and of commands, that differ little from one to the next.
+    FrameDelay = 6,
+    CommandDelay = 7,
 }
 
 /// The random numbers of one event: those of `SplitMix64` (Steele, Lea and Flood, OOPSLA 2014) from a start

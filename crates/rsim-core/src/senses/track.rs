@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::blocks::{
     LANES, Lanes, VectorLanes, alternating_series, mask_of_bits, set_bits, smaller,
 };
-use crate::geometry::motion::Motion;
+use crate::geometry::motion::{Motion, direction};
 use crate::geometry::motion_block::MotionBlock;
 use crate::math::Vector;
 use crate::senses::detections::DetectedBlock;
@@ -143,6 +143,10 @@ impl TrackBlock {
     /// positions are averaged.
     pub(super) fn update(&mut self, seen: &DetectedBlock, position: &Filter, heading: &Filter) {
         let mask = mask_of_bits(seen.bodies.into());
+        if seen.moved != 0 {
+            let moved = mask_of_bits(seen.moved.into());
+            self.motion.position = seen.position.where_else(moved, self.motion.position);
+        }
         let new = self.unseen.simd_gt(Lanes::ZERO);
         let again = (mask & !new).to_bitmask();
         // Filters of one tracker count with the same period.
@@ -228,33 +232,23 @@ impl TrackBlock {
         }
     }
 
-    /// The circle in which detections of a body are expected without a push.
-    pub(super) fn expected(&self, lane: usize, filter: &Filter) -> Expected {
-        let gate = filter.gains(self.positions).gate.as_array()[lane];
-        Expected { place: self.motion.position.get(lane), gate }
+    /// Moves a body by the difference of two cameras' errors: the second one sees it now at `detected`.
+    pub(super) fn shift(&mut self, lane: usize, detected: Vector) {
+        self.motion.position.set(lane, detected);
+        self.unseen.as_mut_array()[lane] = 0.0;
     }
 
-    /// Takes in a detection by another camera at the instant of the last one.
+    /// Slows a body down to a speed, m/s.
+    pub(super) fn limit_speed(&mut self, lane: usize, speed: f32) {
+        let velocity = self.motion.velocity.get(lane);
+        self.motion.velocity.set(lane, velocity.clamp_length_max(speed));
+    }
+
+    /// Takes in one more detection at the instant of the last one.
     pub(super) fn average(&mut self, lane: usize, detected: Vector, filter: &Filter) {
         let part = 0.5 * filter.gains(self.positions).alpha.as_array()[lane];
         let position = self.motion.position.get(lane);
         self.motion.position.set(lane, position + (detected - position) * part);
-    }
-}
-
-/// A circle in which detections of a body are expected.
-#[derive(Clone, Copy)]
-pub(super) struct Expected {
-    /// m.
-    pub(super) place: Vector,
-    /// Squared radius, m².
-    gate: f32,
-}
-
-impl Expected {
-    /// Whether a detection is inside.
-    pub(super) fn has(self, detected: Vector) -> bool {
-        (detected - self.place).length_squared() <= self.gate
     }
 }
 
@@ -276,15 +270,14 @@ const SERIES: f32 = 1.0;
 /// Headings turned by angles, rad, to a thousandth for the largest and far better for usual ones. Cosine and sine
 /// are series. A step of Newton's method brings the length of the headings that come in back to 1; an angle of 1 changes
 /// it by some ten-thousandths.
-fn turned(heading: VectorLanes, angle: Lanes) -> VectorLanes {
+pub(super) fn turned(heading: VectorLanes, angle: Lanes) -> VectorLanes {
     let square = angle * angle;
     let mut turn = VectorLanes {
         x: alternating_series(square, [2.0, 12.0, 30.0]),
         y: angle * alternating_series(square, [6.0, 20.0]),
     };
     for lane in set_bits(square.simd_gt(Lanes::splat(SERIES * SERIES)).to_bitmask().into()) {
-        let (sin, cos) = libm::sincosf(angle.as_array()[lane]);
-        turn.set(lane, Vector::new(cos, sin));
+        turn.set(lane, direction(angle.as_array()[lane]));
     }
     let more = Lanes::splat(1.5) - Lanes::HALF * heading.length_squared();
     heading.rotated_by(turn) * more
@@ -350,8 +343,8 @@ mod tests {
         for _ in 0..10_000 {
             track.coast(PERIOD);
             let seen = Vector::new(draws.normal(0.001), draws.normal(0.001));
-            pushes += u32::from(!track.expected(LANE, &filter).has(seen));
             track.update_position(LANE, seen, &filter);
+            pushes += u32::from(track.pushed().as_array()[LANE] != 0.0);
         }
         assert!(pushes < 30, "{pushes}");
     }

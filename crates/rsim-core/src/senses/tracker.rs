@@ -10,9 +10,10 @@ use crate::models::sensing::Sensing;
 use crate::senses::detections::{BallMotion, DetectedBall};
 use crate::senses::fetch::Fetched;
 use crate::senses::filter::Filter;
+use crate::senses::followed::PATIENCE;
 use crate::senses::frames::Frame;
 use crate::senses::held::{Beams, Held};
-use crate::senses::track::TrackBlock;
+use crate::senses::track::{LOST, TrackBlock};
 use crate::senses::tracks::{Filters, Tracks};
 
 /// Accelerations of robots that speed up, which the filters count with, m/s² and rad/s².
@@ -23,6 +24,9 @@ const ANGULAR_ACCELERATION: f32 = 50.0;
 /// farther away is another thing.
 const MAX_BALL_SPEED: f32 = 12.0;
 const MIN_REACH: f32 = 0.1;
+
+/// Greatest distance between the places at which two cameras see one ball, m; a ball farther away has moved.
+const MAX_CAMERA_ERROR: f32 = 0.1;
 
 /// Number of frames in a row without the ball where it can be after which it is believed where it is seen.
 const BELIEVED: u8 = 8;
@@ -35,6 +39,8 @@ struct Ball {
     spin: Vec3,
     /// Number of frames in a row whose balls were too far away.
     refused: u8,
+    /// The camera that it is followed by; see [`crate::senses::followed`].
+    camera: u8,
     /// The robot in whose mouth it is.
     held: Option<Held>,
 }
@@ -53,7 +59,7 @@ impl Tracker {
     /// The tracker of `robots` robots for frames of some senses, one each `period` (s), before it has seen
     /// any.
     pub(super) fn new(robots: usize, sensing: &Sensing, period: f32) -> Self {
-        let ball = Ball { height: [0.0; 2], spin: Vec3::ZERO, refused: 0, held: None };
+        let ball = Ball { height: [0.0; 2], spin: Vec3::ZERO, refused: 0, camera: 0, held: None };
         let filters = Filters::of(sensing, period, ROBOT_ACCELERATION, ANGULAR_ACCELERATION);
         Self { ball, tracks: Tracks::new(robots), time: 0.0, filters }
     }
@@ -70,7 +76,8 @@ impl Tracker {
         for (seen, BallMotion { velocity, v_z, spin }) in frame.moving_balls() {
             let (block, lane) = self.tracks.of(BALL);
             block.move_to(lane, seen.position, velocity);
-            self.ball = Ball { height: [seen.z, v_z], spin, refused: 0, held: None };
+            let camera = seen.camera;
+            self.ball = Ball { height: [seen.z, v_z], spin, refused: 0, camera, held: None };
         }
         self.tracks.begin(frame);
     }
@@ -161,35 +168,35 @@ impl Tracker {
         }
     }
 
-    /// Takes in the balls of a frame, of which some may be ghosts, for a ball that nobody holds.
+    /// Takes in the balls of a frame, of which some may be ghosts, for a ball that nobody holds: the nearest one of the
+    /// camera that follows the ball, or of any where that one has not seen it for some time.
     fn see(&mut self, balls: &[DetectedBall]) {
         self.ball.height = [0.0; 2];
         let (filter, ball) = (&self.filters.ball, &mut self.ball);
         let (block, lane) = self.tracks.of(BALL);
-        let expected = block.expected(lane, filter);
-        let mut is_there = false;
-        for seen in balls.iter().filter(|seen| expected.has(seen.position)) {
-            update_ball(block, lane, seen.position, filter);
-            is_there = true;
-        }
-        if is_there {
-            ball.refused = 0;
+        let (expected, unseen) = (block.motion(lane).position, block.unseen(lane));
+        let is_own = |seen: &&DetectedBall| seen.camera == ball.camera;
+        let own_alone = unseen < filter.after(PATIENCE) || balls.iter().any(|seen| is_own(&seen));
+        let distance = |seen: &&DetectedBall| (seen.position - expected).length_squared();
+        let candidates = balls.iter().filter(|seen| !own_alone || is_own(seen));
+        let nearest = candidates.min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let Some(nearest) = nearest else { return };
+        let (distance, reach) = (distance(&nearest), MIN_REACH + MAX_BALL_SPEED * unseen);
+        if distance > reach * reach {
+            ball.refused += 1;
+            if ball.refused >= BELIEVED {
+                block.move_to(lane, nearest.position, Vector::ZERO);
+                (ball.refused, ball.camera) = (0, nearest.camera);
+            }
             return;
         }
-        let distance = |seen: &&DetectedBall| (seen.position - expected.place).length_squared();
-        let Some(nearest) = balls.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))) else {
-            return;
-        };
-        let reach = MIN_REACH + MAX_BALL_SPEED * block.unseen(lane);
-        if distance(&nearest) <= reach * reach {
+        let is_shift =
+            !is_own(&nearest) && unseen <= LOST && distance <= MAX_CAMERA_ERROR * MAX_CAMERA_ERROR;
+        (ball.refused, ball.camera) = (0, nearest.camera);
+        if is_shift {
+            block.shift(lane, nearest.position);
+        } else {
             update_ball(block, lane, nearest.position, filter);
-            ball.refused = 0;
-            return;
-        }
-        ball.refused += 1;
-        if ball.refused >= BELIEVED {
-            block.move_to(lane, nearest.position, Vector::ZERO);
-            ball.refused = 0;
         }
     }
 
@@ -204,10 +211,11 @@ impl Tracker {
     }
 }
 
-/// Takes in a ball: the first one at its instant, or that of another camera.
+/// Takes in a ball: the first one at its instant, or one more.
 fn update_ball(block: &mut TrackBlock, lane: usize, position: Vector, filter: &Filter) {
     if block.unseen(lane) > 0.0 {
         block.update_position(lane, position, filter);
+        block.limit_speed(lane, MAX_BALL_SPEED);
     } else {
         block.average(lane, position, filter);
     }

@@ -56,10 +56,6 @@ impl Tracks {
         for (block, seen) in self.blocks.iter_mut().zip(frame.blocks) {
             block.update(seen, &filters.robot, &filters.heading);
         }
-        for seen in frame.again {
-            let (block, lane) = self.of(robot(seen.robot.into()));
-            block.average(lane, seen.position, &filters.robot);
-        }
     }
 }
 

@@ -10,6 +10,7 @@ use crate::senses::cameras::{Cameras, ROUNDING};
 use crate::senses::driven::{DrivenRobots, Orders, Tracked};
 use crate::senses::exposed::Film;
 use crate::senses::fetch::Fetched;
+use crate::senses::followed::Followed;
 use crate::senses::frames::{CameraFrame, Frames};
 use crate::senses::held::Beams;
 use crate::senses::queue::most_under_way;
@@ -24,6 +25,8 @@ pub(super) struct Vision {
     pub(super) key: u64,
     cameras: Cameras,
     frames: Frames,
+    /// `None` where one camera sees all, and where nothing is filtered.
+    followed: Option<Followed>,
     pub(super) tracker: Tracker,
     /// Estimates for forecasts; `None` where nobody forecasts.
     pub(super) driven: Option<Box<DrivenRobots>>,
@@ -39,7 +42,9 @@ impl Vision {
         let tracker = Tracker::new(robots, sensing, period);
         let has_driven = sensing.forecast >= 0.5 && sensing.tracker >= 0.5;
         let driven = has_driven.then(|| Box::new(DrivenRobots::new(robots, sensing, period)));
-        Self { key, cameras, frames, tracker, driven }
+        let has_others = cameras.count() > 1 && sensing.tracker >= 0.5;
+        let followed = has_others.then(|| Followed::new(blocks_of(robots), period));
+        Self { key, cameras, frames, followed, tracker, driven }
     }
 
     /// Fetches cameras, frames and tracker; what forecasts need besides is left out.
@@ -61,6 +66,9 @@ impl Vision {
         let mut first = Frames::new(blocks_of(watched.config.n_robots()), 1);
         self.cameras.look(now, sensing, draws, watched, &mut first);
         let Some(frame) = first.last() else { return };
+        if let Some(followed) = &mut self.followed {
+            followed.begin(frame);
+        }
         self.tracker.begin(frame);
         if let Some(driven) = &mut self.driven {
             driven.begin(frame);
@@ -90,6 +98,10 @@ impl Vision {
         self.frames.forget_arrived();
         self.cameras.develop(film.of(self.key, beams.parameters), sensing, &mut self.frames);
         while let Some(frame) = self.frames.arrive(now + ROUNDING) {
+            let frame = match &mut self.followed {
+                Some(followed) => followed.choose(frame),
+                None => frame,
+            };
             self.tracker.take(sensing, frame, beams.parameters.ball.radius, Some(beams));
             if let Some(driven) = &mut self.driven {
                 let held = self.tracker.held();

@@ -11,6 +11,7 @@ use crate::models::config::SimConfig;
 use crate::models::sensing::Sensing;
 use crate::senses::detections::{DetectedBall, DetectedBlock, DetectedRobot};
 use crate::senses::driven::{DrivenRobots, Orders, Tracked};
+use crate::senses::followed::Followed;
 use crate::senses::frames::Frame;
 use crate::senses::held::Beams;
 use crate::senses::reports::Reported;
@@ -41,6 +42,7 @@ pub struct VisionTracker {
     config: SimConfig,
     parameters: BodyParameters,
     sensing: Sensing,
+    followed: Followed,
     tracker: Tracker,
     driven: DrivenRobots,
     /// Commands that were sent, and the robots to which, one bit each.
@@ -74,6 +76,7 @@ impl VisionTracker {
         }
         let rate = if sensing.frame_rate > 0.0 { sensing.frame_rate } else { FRAME_RATE };
         let robots = config.n_robots();
+        let followed = Followed::new(blocks_of(robots), 1.0 / rate);
         let tracker = Tracker::new(robots, &sensing, 1.0 / rate);
         let driven = DrivenRobots::new(robots, &sensing, 1.0 / rate);
         let (parameters, robots_seen) =
@@ -82,6 +85,7 @@ impl VisionTracker {
             config: config.clone(),
             parameters,
             sensing,
+            followed,
             tracker,
             driven,
             sent: CommandLog::default(),
@@ -139,12 +143,13 @@ impl VisionTracker {
         true
     }
 
-    /// Takes in the detections of a camera: balls, of which one may be real, with the likeliest first, and
-    /// robots. `cut` has a bit for each robot whose break beam is known to be cut, and is `None` where robots report
+    /// Takes in the detections of a camera with this index: balls, of which one may be real, with the likeliest first,
+    /// and robots. `cut` has a bit for each robot whose break beam is known to be cut, and is `None` where robots report
     /// nothing: a ball that was seen before the mouth of such a robot moves with it, also where no camera sees it.
     /// Returns false, and changes nothing, if it is older than the last one.
     pub fn take(
         &mut self,
+        camera: u8,
         time: f64,
         balls: &[[f32; 2]],
         robots: &[SeenRobot],
@@ -153,15 +158,16 @@ impl VisionTracker {
         if self.time.is_some_and(|last| time < last) {
             return false;
         }
-        let balls: Vec<DetectedBall> = balls.iter().copied().map(detected_ball).collect();
+        let balls: Vec<DetectedBall> =
+            balls.iter().map(|ball| detected_ball(camera, *ball)).collect();
         let (known, new): (Vec<&SeenRobot>, Vec<&SeenRobot>) =
             robots.iter().partition(|seen| self.is_in_sight(seen.robot, time));
-        let (known, new) = (self.detected_robots(&known), self.detected_robots(&new));
+        let [known, new] = [known, new].map(|robots| self.detected_robots(camera, &robots));
         if self.time.is_some() {
             let balls = if self.has_ball { &balls[..] } else { &[] };
-            let frame = Frame::of_positions(time, balls, (&known.0, &known.1));
             // Of robots that were not seen no place is known that the ball could be at.
             let cut = cut.filter(|_| self.has_ball).map(|cut| cut & self.in_sight(time));
+            let frame = self.followed.choose(Frame::of_positions(time, balls, &known));
             let beams = cut.map(|cut| Beams { cut, parameters: &self.parameters });
             self.tracker.take(&self.sensing, frame, self.config.ball.radius, beams);
             let held = self.tracker.held();
@@ -170,7 +176,8 @@ impl VisionTracker {
         }
         // A body that has just come into sight rests until it is seen again.
         let first = balls.len().min(usize::from(!self.has_ball));
-        let frame = Frame::of_positions(time, &balls[..first], (&new.0, &new.1));
+        let frame = Frame::of_positions(time, &balls[..first], &new);
+        self.followed.begin(frame);
         self.tracker.begin(frame);
         self.driven.begin(frame);
         self.time = Some(time);
@@ -181,24 +188,20 @@ impl VisionTracker {
         true
     }
 
-    /// Robots that a camera detected: by block the first detection of each, and the others.
-    fn detected_robots(&self, robots: &[&SeenRobot]) -> (Vec<DetectedBlock>, Vec<DetectedRobot>) {
+    /// Robots that a camera detected, by block: of each the first detection.
+    fn detected_robots(&self, camera: u8, robots: &[&SeenRobot]) -> Vec<DetectedBlock> {
         let mut blocks = vec![DetectedBlock::NONE; blocks_of(self.robots_seen.len())];
-        let mut again = Vec::new();
         for seen in robots {
             #[expect(clippy::cast_possible_truncation, reason = "at most 63 robots")]
             let robot = seen.robot as u8;
             let heading = unit(Vector::from(seen.heading));
             let position = Vector::from(seen.position);
-            let detected = DetectedRobot { position, heading, robot, camera: 0 };
             let (block, lane) = place_of(body_of(seen.robot));
             if blocks[block].bodies >> lane & 1 == 0 {
-                blocks[block].set(lane, &detected);
-            } else {
-                again.push(detected);
+                blocks[block].set(lane, &DetectedRobot { position, heading, robot, camera });
             }
         }
-        (blocks, again)
+        blocks
     }
 
     /// Writes the state at the last frame, for a reader who knows the commands of `robots`, one bit each, of those that
@@ -222,8 +225,8 @@ impl VisionTracker {
 }
 
 /// A ball that a camera detected.
-fn detected_ball(place: [f32; 2]) -> DetectedBall {
-    DetectedBall { position: Vector::from(place), z: 0.0, camera: 0 }
+fn detected_ball(camera: u8, place: [f32; 2]) -> DetectedBall {
+    DetectedBall { position: Vector::from(place), z: 0.0, camera }
 }
 
 #[cfg(test)]
@@ -255,7 +258,7 @@ mod tests {
         let mut tracker = tracker();
         for frame in 0..60_u8 {
             let x = f32::from(frame) / 60.0;
-            assert!(tracker.take(f64::from(frame) * PERIOD, &[[x, 0.5 * x]], &[seen(-x)], None));
+            assert!(tracker.take(0, f64::from(frame) * PERIOD, &[[x, 0.5 * x]], &[seen(-x)], None));
         }
         let row = row(&tracker);
         let near = |column: usize, expected: f32| (row[column] - expected).abs() < 0.02;
@@ -269,12 +272,12 @@ mod tests {
     fn nothing_is_known_before_it_is_seen_and_robots_out_of_sight_are_absent() {
         let mut tracker = tracker();
         assert!(tracker.time().is_none() && !tracker.has_ball() && !tracker.has_robot(0));
-        assert!(tracker.take(5.0, &[], &[seen(0.3)], None));
+        assert!(tracker.take(0, 5.0, &[], &[seen(0.3)], None));
         assert!(row(&tracker)[ROBOT + ABSENT_COLUMN] == 0.0);
-        assert!(tracker.take(5.6, &[[1.0, 2.0]], &[], None));
+        assert!(tracker.take(0, 5.6, &[[1.0, 2.0]], &[], None));
         let gone = row(&tracker);
         assert!(gone[ROBOT + ABSENT_COLUMN] > 0.0 && (gone[ROBOT] - 0.3).abs() < 1e-6);
-        assert!(tracker.take(5.7, &[], &[seen(-2.0)], None));
+        assert!(tracker.take(0, 5.7, &[], &[seen(-2.0)], None));
         let back = row(&tracker);
         assert!(back[ROBOT..ROBOT + 6] == [-2.0, 1.0, 1.0, 0.0, 0.0, 0.0], "{back:?}");
     }
@@ -289,7 +292,7 @@ mod tests {
                 let time = f64::from(frame) * PERIOD;
                 let x = (f32::from(frame) / 60.0 - 0.25).max(0.0);
                 let balls: &[[f32; 2]] = if frame < 15 { &[[mouth + 0.005, 1.0]] } else { &[] };
-                assert!(tracker.take(time, balls, &[seen(x)], cut));
+                assert!(tracker.take(0, time, balls, &[seen(x)], cut));
             }
             let row = row(&tracker);
             (row[0] - row[ROBOT] - mouth, row[3])
@@ -312,7 +315,7 @@ mod tests {
         for frame in 0..300_u16 {
             let ball = [mouth + draws.normal(0.001), 1.0 + draws.normal(0.001)];
             let balls: &[[f32; 2]] = if draws.happens(share) || frame < 30 { &[ball] } else { &[] };
-            assert!(tracker.take(f64::from(frame) * PERIOD, balls, &[seen(0.0)], Some(1)));
+            assert!(tracker.take(0, f64::from(frame) * PERIOD, balls, &[seen(0.0)], Some(1)));
             let row = row(&tracker);
             let [x, y] = [row[3] - row[ROBOT + 4], row[4] - row[ROBOT + 5]];
             sum += (x * x + y * y).sqrt();
@@ -335,7 +338,7 @@ mod tests {
                 let x = 0.002 * f32::from(frame);
                 for copy in 0..copies {
                     let time = f64::from(frame) * PERIOD + f64::from(copy) * 1e-4;
-                    assert!(tracker.take(time, &[], &[seen(x)], None));
+                    assert!(tracker.take(0, time, &[], &[seen(x)], None));
                 }
             }
             row(&tracker)[ROBOT + 4]
@@ -348,12 +351,12 @@ mod tests {
     #[test]
     fn readers_know_the_commands_of_their_own_robots() {
         let mut tracker = tracker();
-        assert!(tracker.take(0.0, &[], &[seen(0.0)], None));
+        assert!(tracker.take(0, 0.0, &[], &[seen(0.0)], None));
         let mut commands = [0.0; 12];
         commands[0] = 1.0;
         assert!(tracker.send(0.0, &commands, 0b1));
         for frame in 1..3_u8 {
-            assert!(tracker.take(f64::from(frame) * PERIOD, &[], &[seen(0.0)], None));
+            assert!(tracker.take(0, f64::from(frame) * PERIOD, &[], &[seen(0.0)], None));
         }
         let speed = |robots: u64| {
             let mut out = vec![f32::NAN; tracker.config().row_size()];
@@ -373,7 +376,7 @@ mod tests {
         let mut take = |x: Option<f32>, cut: Option<u64>| {
             at += PERIOD;
             let ball = x.map(|x| [x, 1.0]);
-            assert!(tracker.take(at, ball.as_slice(), &[seen(0.0)], cut));
+            assert!(tracker.take(0, at, ball.as_slice(), &[seen(0.0)], cut));
             row(&tracker)[0]
         };
         for _ in 0..10 {
@@ -393,17 +396,74 @@ mod tests {
         let ball = [robot.front_distance() + tracker.config().ball.radius, 0.0];
         for frame in 0..30_u8 {
             let x = ball[0] + 0.01 * f32::from(frame);
-            assert!(tracker.take(f64::from(frame) * PERIOD, &[[x, 0.0]], &[], Some(0b11)));
+            assert!(tracker.take(0, f64::from(frame) * PERIOD, &[[x, 0.0]], &[], Some(0b11)));
         }
         assert!(row(&tracker)[0] > ball[0] + 0.25, "robot 0 was never seen at the origin");
     }
 
     #[test]
+    fn a_second_camera_at_another_place_gives_bodies_no_velocity() {
+        for (late, away) in [(0.0, 0.03), (0.004, 0.03), (0.008, -0.05)] {
+            let mut tracker = tracker();
+            for frame in 0..90_u8 {
+                let time = f64::from(frame) * PERIOD;
+                // The first camera misses the bodies now and then, and in the end for good.
+                let (balls, robots) = ([[1.0, 0.5]], [seen(0.2)]);
+                let sees = frame % 7 != 3 && frame < 60;
+                let count = usize::from(sees);
+                assert!(tracker.take(0, time, &balls[..count], &robots[..count], None));
+                let (balls, robots) = ([[1.0 + away, 0.5]], [seen(0.2 + away)]);
+                assert!(tracker.take(1, time + late, &balls, &robots, None));
+                let row = row(&tracker);
+                let speeds = [row[3].hypot(row[4]), row[ROBOT + 4].hypot(row[ROBOT + 5])];
+                assert!(speeds.iter().all(|speed| *speed < 0.02), "{late} {frame}: {speeds:?}");
+            }
+            let row = row(&tracker);
+            assert!((row[0] - 1.0 - away).abs() < 1e-3 && (row[ROBOT] - 0.2 - away).abs() < 1e-3);
+        }
+    }
+
+    #[test]
+    fn a_body_that_goes_from_one_camera_to_the_other_keeps_its_velocity() {
+        let mut tracker = tracker();
+        for frame in 0..90_u8 {
+            let (time, x) = (f64::from(frame) * PERIOD, f32::from(frame) / 60.0);
+            let (near, far) = (usize::from(x < 0.8), usize::from(x > 0.6));
+            let (balls, robots) = ([[x, 0.0]], [seen(x)]);
+            assert!(tracker.take(0, time, &balls[..near], &robots[..near], None));
+            let (balls, robots) = ([[x + 0.03, 0.0]], [seen(x + 0.03)]);
+            assert!(tracker.take(1, time, &balls[..far], &robots[..far], None));
+            if frame > 20 {
+                let row = row(&tracker);
+                let speeds = [row[3], row[ROBOT + 4]];
+                assert!(speeds.iter().all(|v| (v - 1.0).abs() < 0.03), "{frame}: {speeds:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_ghost_far_away_is_no_ball_after_a_kick_either() {
+        for others in [&[][..], &[[-3.0, -2.0]][..]] {
+            let mut tracker = tracker();
+            for frame in 0..40_u8 {
+                let x = 4.0 * (f32::from(frame) - 19.5).max(0.0) / 60.0;
+                // Just after the kick it is missed once.
+                let seen = usize::from(frame != 21);
+                let balls = [&[[x, 0.0]][..seen], others].concat();
+                assert!(tracker.take(0, f64::from(frame) * PERIOD, &balls, &[], None));
+                let row = row(&tracker);
+                assert!(row[3].hypot(row[4]) < 6.0, "{frame}: {row:?}");
+                assert!(frame == 20 || (row[0] - x).abs() < 0.1, "{frame}: {} {x}", row[0]);
+            }
+        }
+    }
+
+    #[test]
     fn a_frame_of_the_past_changes_nothing() {
         let mut tracker = tracker();
-        assert!(tracker.take(5.0, &[[1.0, 2.0]], &[seen(0.3)], None));
+        assert!(tracker.take(0, 5.0, &[[1.0, 2.0]], &[seen(0.3)], None));
         let before = row(&tracker);
-        assert!(!tracker.take(4.9, &[[2.0, 2.0]], &[seen(0.5)], None));
+        assert!(!tracker.take(0, 4.9, &[[2.0, 2.0]], &[seen(0.5)], None));
         assert!(row(&tracker) == before && tracker.time() == Some(5.0));
     }
 }

@@ -114,6 +114,43 @@ fn positions_and_headings_have_the_noise_that_was_asked_for() {
 }
 
 #[test]
+fn large_noise_of_headings_is_that_of_angles() {
+    let scene = Scene::lined_up("still", scenes::vss(2, 0), Driver::STILL);
+    for (tracker, noise) in [(0.0, 0.5), (0.0, 1.0), (0.0, 0.2)] {
+        let sensing = Sensing { heading_noise: noise, tracker, ..Sensing::OFF };
+        let played = Played::new(&scene, sensing, 100, 200);
+        let (cos, sin) = (played.column(Some(0), "cos"), played.column(Some(0), "sin"));
+        let angles = cos.iter().flatten().zip(sin.iter().flatten()).map(|(cos, sin)| {
+            let [truth, known] = [0, 1].map(|nth| sin[nth].atan2(cos[nth]));
+            let turn = known - truth;
+            turn - std::f32::consts::TAU * (turn / std::f32::consts::TAU).round()
+        });
+        // An angle beyond a half turn is one less by a whole turn: seldom up to 1 rad.
+        assert_near(moments(angles).1, noise.into(), 0.02);
+    }
+}
+
+#[test]
+fn cameras_that_see_bodies_at_different_places_give_them_no_velocity() {
+    // Where two cameras of the presets overlap.
+    let mut scene = Scene::at("rest", scenes::ssl(1, 0), &[[-0.3, 0.5, 0.0]], Driver::STILL);
+    scene.set_ball([0.0, 0.0], [0.0, 0.0]);
+    for preset in [Sensing::FRIENDLY, Sensing::REALISTIC] {
+        assert!(preset.camera_offset_error > 0.0 && preset.camera_overlap > 0.0);
+        let name = preset.name.clone();
+        let played = Played::new(&scene, preset, 60, 300);
+        for robot in [None, Some(0)] {
+            let [x, y] = ["v_x", "v_y"].map(|column| played.column(robot, column));
+            let speeds = x[40..].iter().flatten().zip(y[40..].iter().flatten());
+            let mut speeds: Vec<f32> = speeds.map(|(x, y)| x[1].hypot(y[1])).collect();
+            speeds.sort_by(f32::total_cmp);
+            let most = speeds[speeds.len() * 99 / 100];
+            assert!(most < 0.25, "{name} {robot:?}: {most} m/s");
+        }
+    }
+}
+
+#[test]
 fn as_many_detections_are_missing_as_asked() {
     let scene = Scene::lined_up("still", scenes::vss(2, 0), Driver::STILL);
     let noise = Sensing {
