@@ -52,6 +52,22 @@ def test_a_ghost_far_from_the_ball_is_ignored() -> None:
     np.testing.assert_allclose(read(tracker).ball.position[0], [0.1, 0.2], atol=1e-4)
 
 
+def test_a_second_camera_at_another_place_gives_bodies_no_velocity() -> None:
+    tracker = VisionTracker(CONFIG)
+    for frame in range(60):
+        for camera in (0, 1):
+            if (frame % 7, camera) == (3, 0):
+                continue
+            x, time = 0.03 * camera, frame / 60 + 0.003 * camera
+            ball = np.array([[x + 1.0, 0.2]], np.float32)
+            assert tracker.take(time, ball, seen(1, x), camera=camera)
+            found = read(tracker)
+            np.testing.assert_allclose(found.ball.velocity[0], 0.0, atol=0.02)
+            np.testing.assert_allclose(found.robots.velocity[0, 1], 0.0, atol=0.02)
+    with pytest.raises(ValueError, match="camera must be from 0 to 255, got 256"):
+        tracker.take(2.0, NO_BALL, NOBODY, camera=256)
+
+
 def test_a_ball_that_no_camera_sees_moves_with_the_robot_whose_beam_it_cuts() -> None:
     mouth = CONFIG.robots[0].front_distance + CONFIG.ball.radius
     last = {}

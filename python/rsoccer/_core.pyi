@@ -764,7 +764,7 @@ class Sensing:
 
     @property
     def delay_jitter(self) -> float:
-        """Maximum deviation of that time, uniform. Frames keep their order (s, 0 or above)."""
+        """Maximum deviation, at most that time. Frames keep their order (s, 0 or above)."""
 
     @property
     def frame_loss(self) -> float:
@@ -868,7 +868,7 @@ class Sensing:
 
     @property
     def command_jitter(self) -> float:
-        """Maximum deviation of that time, uniform. Commands keep their order (s, 0 or above)."""
+        """Maximum deviation, at most that time. Commands keep their order (s, 0 or above)."""
 
     @property
     def command_loss(self) -> float:
@@ -2253,8 +2253,8 @@ class VisionTracker:
         """Take in the detections of a camera.
 
         Cameras see a body at places that differ by their errors, so that it is followed by one of
-        them until that one has missed it for one and a half periods. A ball that was seen before the mouth of a
-        robot whose break beam is cut moves with it, also while no camera sees it.
+        them until that one has missed it for one and a half periods. A ball that was seen before
+        the mouth of a robot whose break beam is cut moves with it, also while no camera sees it.
 
         Args:
             time: Time of the exposure, s, on any clock that runs evenly.

@@ -27,7 +27,7 @@ numbers! {
         frame_rate: NotNegative, "Hz";
         /// Time from the exposure of a frame to its arrival.
         delay: NotNegative, "s";
-        /// Maximum deviation of that time, uniform. Frames keep their order.
+        /// Maximum deviation, at most that time. Frames keep their order.
         delay_jitter: NotNegative, "s";
         /// Probability that a frame is lost.
         frame_loss: Fraction, "1";
@@ -80,7 +80,7 @@ numbers! {
         gyroscope_error: NotNegative, "rad/s";
         /// Mean time from a command to its arrival, at the start of a tick.
         command_delay: NotNegative, "s";
-        /// Maximum deviation of that time, uniform. Commands keep their order.
+        /// Maximum deviation, at most that time. Commands keep their order.
         command_jitter: NotNegative, "s";
         /// Probability that a robot misses a command, and keeps the last.
         command_loss: Fraction, "1";
