@@ -13,6 +13,7 @@ use crate::senses::Watched;
 use crate::senses::detections::{BallMotion, DetectedBall, DetectedBlock, DetectedRobot};
 use crate::senses::exposed::{Exposed, ExposureId, Film};
 use crate::senses::fetch::Fetched;
+use crate::senses::followed::Followed;
 use crate::senses::frames::Frames;
 use crate::senses::jitter::Jitter;
 use crate::senses::random::{Draws, PoseNoise, Purpose};
@@ -151,11 +152,13 @@ impl Cameras {
         self.due = ticks_until(self.next, tick);
     }
 
-    /// Adds the frames of the step that ended: what the cameras detect in its exposures.
+    /// Adds the frames of the step that ended: what the cameras detect in its exposures. Of several detections of a robot
+    /// the one by the camera that it is `followed` by counts, if any does.
     pub(super) fn develop<'a>(
         &self,
         exposures: impl Iterator<Item = Exposed<'a>>,
         sensing: &Sensing,
+        mut followed: Option<&mut Followed>,
         frames: &mut Frames,
     ) {
         for exposed in exposures {
@@ -171,6 +174,9 @@ impl Cameras {
             for camera in &self.all {
                 let noise = (&mut draws, &mut of_ball);
                 camera.detect(exposed, sensing, self.period, noise, frames);
+            }
+            if let Some(followed) = &mut followed {
+                frames.choose(time, followed);
             }
             frames.end_frame(time, due);
         }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::blocks::{LANES, Lanes, VectorLanes};
+use crate::blocks::{LANES, Lanes, VectorLanes, robot_at};
 use crate::math::{Vec3, Vector};
 
 /// A ball as a camera sees it.
@@ -53,6 +53,14 @@ impl DetectedBlock {
         cameras: [0; LANES],
         moved: 0,
     };
+
+    /// The detection of a robot of the block with this index.
+    pub(super) fn get(&self, block: usize, lane: usize) -> DetectedRobot {
+        #[expect(clippy::cast_possible_truncation, reason = "at most 63 robots")]
+        let robot = robot_at(block, lane) as u8;
+        let (position, heading) = (self.position.get(lane), self.heading.get(lane));
+        DetectedRobot { position, heading, robot, camera: self.cameras[lane] }
+    }
 
     /// Sets the detection of a robot.
     pub(super) fn set(&mut self, lane: usize, detected: &DetectedRobot) {

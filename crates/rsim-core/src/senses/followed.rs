@@ -6,9 +6,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::blocks::{LANES, Lanes, mask_of_bits, place_of, robot, set_bits};
-use crate::senses::detections::DetectedBlock;
-use crate::senses::frames::Frame;
+use crate::blocks::{LANES, Lanes, mask_of_bits, set_bits};
+use crate::senses::detections::{DetectedBlock, DetectedRobot};
 use crate::senses::track::LOST;
 
 /// Frames in a row without the body, in periods of the cameras, after which another camera takes over.
@@ -30,23 +29,19 @@ pub(super) struct Followed {
     time: f64,
     /// Time without a robot after which another camera takes over, s.
     patience: f32,
-    /// Detections that count in the last frame, if they are not the first ones of all robots.
-    #[serde(skip)]
-    chosen: Vec<DetectedBlock>,
 }
 
 impl Followed {
     /// Of bodies in `blocks` blocks that no camera has seen, by frames each `period`, s.
     pub(super) fn new(blocks: usize, period: f32) -> Self {
         let unseen = FollowedBlock { cameras: [0; LANES], unseen: Lanes::splat(f32::INFINITY) };
-        let patience = PATIENCE * period;
-        Self { blocks: vec![unseen; blocks], time: 0.0, patience, chosen: Vec::new() }
+        Self { blocks: vec![unseen; blocks], time: 0.0, patience: PATIENCE * period }
     }
 
-    /// Begins anew with the robots of a frame.
-    pub(super) fn begin(&mut self, frame: Frame<'_>) {
-        self.time = frame.time;
-        for (followed, seen) in self.blocks.iter_mut().zip(frame.blocks) {
+    /// Begins anew with the robots of a frame at a time, s.
+    pub(super) fn begin(&mut self, time: f64, blocks: &[DetectedBlock]) {
+        self.time = time;
+        for (followed, seen) in self.blocks.iter_mut().zip(blocks) {
             for lane in set_bits(seen.bodies.into()) {
                 followed.cameras[lane] = seen.cameras[lane];
                 followed.unseen.as_mut_array()[lane] = 0.0;
@@ -54,39 +49,34 @@ impl Followed {
         }
     }
 
-    /// The frame with the detections that count. One that is older than the last stays as it is.
-    pub(super) fn choose<'a>(&'a mut self, frame: Frame<'a>) -> Frame<'a> {
+    /// Lets the detections that count be the ones of a frame at a time, s, that is not older than the last: of `blocks`,
+    /// which had the first one of each robot, and `again`, which gets the others.
+    pub(super) fn choose(
+        &mut self,
+        time: f64,
+        blocks: &mut [DetectedBlock],
+        again: &mut impl OtherDetections,
+    ) {
         #[expect(clippy::cast_possible_truncation, reason = "time between two frames")]
-        let elapsed = (frame.time - self.time) as f32;
-        if elapsed < 0.0 {
-            return frame;
-        }
-        self.time = frame.time;
-        let Self { blocks, patience, chosen, .. } = self;
-        let mut is_first = true;
-        for (followed, seen) in blocks.iter_mut().zip(frame.blocks) {
-            followed.unseen += Lanes::splat(elapsed);
-            is_first &= followed.sees(seen);
-        }
-        if is_first {
-            for (followed, seen) in blocks.iter_mut().zip(frame.blocks) {
-                followed.take(seen.bodies);
+        let elapsed = Lanes::splat((time - self.time) as f32);
+        self.time = time;
+        for (index, (followed, seen)) in self.blocks.iter_mut().zip(blocks).enumerate() {
+            followed.unseen += elapsed;
+            if !followed.sees(seen) {
+                followed.choose(index, seen, self.patience, again);
             }
-            return frame.with_robots(frame.blocks);
+            followed.take(seen.bodies);
         }
-        chosen.clear();
-        chosen.extend_from_slice(frame.blocks);
-        for seen in frame.again {
-            let (block, lane) = place_of(robot(seen.robot.into()));
-            if blocks[block].cameras[lane] == seen.camera {
-                chosen[block].set(lane, seen);
-            }
-        }
-        for (followed, seen) in blocks.iter_mut().zip(&mut *chosen) {
-            followed.choose(seen, *patience);
-        }
-        frame.with_robots(chosen)
     }
+}
+
+/// Detections of robots that do not count, as another camera detects them too.
+pub(super) trait OtherDetections {
+    /// Exchanges that of a robot by the camera of `wanted` for another; `false` if there is none.
+    fn exchange(&mut self, wanted: u8, given: &mut DetectedRobot) -> bool;
+
+    /// Adds one.
+    fn add(&mut self, seen: DetectedRobot);
 }
 
 impl FollowedBlock {
@@ -101,21 +91,30 @@ impl FollowedBlock {
         self.unseen = mask_of_bits(bodies.into()).bitselect(Lanes::ZERO, self.unseen);
     }
 
-    /// Takes out what other cameras see, but where they take over.
-    fn choose(&mut self, seen: &mut DetectedBlock, patience: f32) {
+    /// Takes out what other cameras see, but where they take over. `index` is that of the block.
+    fn choose(
+        &mut self,
+        index: usize,
+        seen: &mut DetectedBlock,
+        patience: f32,
+        again: &mut impl OtherDetections,
+    ) {
         for lane in set_bits(seen.bodies.into()) {
-            let unseen = self.unseen.as_array()[lane];
-            if seen.cameras[lane] == self.cameras[lane] {
+            let (camera, unseen) = (self.cameras[lane], self.unseen.as_array()[lane]);
+            if seen.cameras[lane] == camera {
                 continue;
             }
-            if unseen < patience {
+            let mut other = seen.get(index, lane);
+            if again.exchange(camera, &mut other) {
+                seen.set(lane, &other);
+            } else if unseen < patience {
+                again.add(other);
                 seen.bodies &= !(1 << lane);
-                continue;
+            } else {
+                self.cameras[lane] = other.camera;
+                // Where a lost robot stands is not known.
+                seen.moved |= u8::from(unseen <= LOST) << lane;
             }
-            self.cameras[lane] = seen.cameras[lane];
-            // Where a lost robot stands is not known.
-            seen.moved |= u8::from(unseen <= LOST) << lane;
         }
-        self.take(seen.bodies);
     }
 }

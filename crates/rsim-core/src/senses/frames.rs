@@ -9,6 +9,7 @@ use crate::senses::detections::{
     BallMotion, DetectedBall, DetectedBlock, DetectedRobot, Velocities,
 };
 use crate::senses::fetch::Fetched;
+use crate::senses::followed::{Followed, OtherDetections};
 use crate::senses::queue::remove_first;
 
 /// A frame: detections of all cameras at one instant.
@@ -34,11 +35,6 @@ impl<'a> Frame<'a> {
         blocks: &'a [DetectedBlock],
     ) -> Self {
         Self { time, balls, blocks, again: &[], ball_motions: &[], velocities: &[] }
-    }
-
-    /// The same frame with these robots, each of which one camera has detected.
-    pub(super) fn with_robots(self, blocks: &'a [DetectedBlock]) -> Self {
-        Self { blocks, again: &[], ..self }
     }
 
     /// The balls with their motions; those of a body at rest where they are unknown.
@@ -126,6 +122,27 @@ struct Ends {
     again: u32,
 }
 
+/// Robots detected again in the frame to come: those of `all` from the first on.
+struct AddedAgain<'a> {
+    all: &'a mut Vec<DetectedRobot>,
+    first: usize,
+}
+
+impl OtherDetections for AddedAgain<'_> {
+    fn exchange(&mut self, wanted: u8, given: &mut DetectedRobot) -> bool {
+        let mut added = self.all[self.first..].iter_mut();
+        let found = added.find(|other| (other.robot, other.camera) == (given.robot, wanted));
+        found.is_some_and(|other| {
+            std::mem::swap(other, given);
+            true
+        })
+    }
+
+    fn add(&mut self, seen: DetectedRobot) {
+        self.all.push(seen);
+    }
+}
+
 impl Frames {
     /// No frames yet, of robots in a number of blocks, with memory for some frames.
     pub(super) fn new(blocks: usize, frames: usize) -> Self {
@@ -188,6 +205,13 @@ impl Frames {
     /// Adds the velocities of a block of robots of the frame to come.
     pub(super) fn add_velocities(&mut self, velocities: Velocities) {
         self.velocities.push(velocities);
+    }
+
+    /// Chooses the detections of the frame to come that count, of those that were added.
+    pub(super) fn choose(&mut self, time: f64, followed: &mut Followed) {
+        let first = self.ends.last().map_or(0, |last| last.again as usize);
+        let mut again = AddedAgain { all: &mut self.again, first };
+        followed.choose(time, self.blocks.next(), &mut again);
     }
 
     /// Adds a robot that another camera has detected.

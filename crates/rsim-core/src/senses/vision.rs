@@ -67,7 +67,7 @@ impl Vision {
         self.cameras.look(now, sensing, draws, watched, &mut first);
         let Some(frame) = first.last() else { return };
         if let Some(followed) = &mut self.followed {
-            followed.begin(frame);
+            followed.begin(frame.time, frame.blocks);
         }
         self.tracker.begin(frame);
         if let Some(driven) = &mut self.driven {
@@ -96,12 +96,9 @@ impl Vision {
         orders: impl Fn() -> Orders<'a>,
     ) {
         self.frames.forget_arrived();
-        self.cameras.develop(film.of(self.key, beams.parameters), sensing, &mut self.frames);
+        let exposures = film.of(self.key, beams.parameters);
+        self.cameras.develop(exposures, sensing, self.followed.as_mut(), &mut self.frames);
         while let Some(frame) = self.frames.arrive(now + ROUNDING) {
-            let frame = match &mut self.followed {
-                Some(followed) => followed.choose(frame),
-                None => frame,
-            };
             self.tracker.take(sensing, frame, beams.parameters.ball.radius, Some(beams));
             if let Some(driven) = &mut self.driven {
                 let held = self.tracker.held();

@@ -11,7 +11,7 @@ use crate::models::config::SimConfig;
 use crate::models::sensing::Sensing;
 use crate::senses::detections::{DetectedBall, DetectedBlock, DetectedRobot};
 use crate::senses::driven::{DrivenRobots, Orders, Tracked};
-use crate::senses::followed::Followed;
+use crate::senses::followed::{Followed, OtherDetections};
 use crate::senses::frames::Frame;
 use crate::senses::held::Beams;
 use crate::senses::reports::Reported;
@@ -162,12 +162,13 @@ impl VisionTracker {
             balls.iter().map(|ball| detected_ball(camera, *ball)).collect();
         let (known, new): (Vec<&SeenRobot>, Vec<&SeenRobot>) =
             robots.iter().partition(|seen| self.is_in_sight(seen.robot, time));
-        let [known, new] = [known, new].map(|robots| self.detected_robots(camera, &robots));
+        let [mut known, new] = [known, new].map(|robots| self.detected_robots(camera, &robots));
         if self.time.is_some() {
             let balls = if self.has_ball { &balls[..] } else { &[] };
             // Of robots that were not seen no place is known that the ball could be at.
             let cut = cut.filter(|_| self.has_ball).map(|cut| cut & self.in_sight(time));
-            let frame = self.followed.choose(Frame::of_positions(time, balls, &known));
+            self.followed.choose(time, &mut known, &mut Unused);
+            let frame = Frame::of_positions(time, balls, &known);
             let beams = cut.map(|cut| Beams { cut, parameters: &self.parameters });
             self.tracker.take(&self.sensing, frame, self.config.ball.radius, beams);
             let held = self.tracker.held();
@@ -177,7 +178,7 @@ impl VisionTracker {
         // A body that has just come into sight rests until it is seen again.
         let first = balls.len().min(usize::from(!self.has_ball));
         let frame = Frame::of_positions(time, &balls[..first], &new);
-        self.followed.begin(frame);
+        self.followed.begin(frame.time, frame.blocks);
         self.tracker.begin(frame);
         self.driven.begin(frame);
         self.time = Some(time);
@@ -222,6 +223,17 @@ impl VisionTracker {
             row::write_driven(&self.driven, known, in_sight, out);
         }
     }
+}
+
+/// Detections of another camera than the one that counts, at about the same time.
+struct Unused;
+
+impl OtherDetections for Unused {
+    fn exchange(&mut self, _wanted: u8, _given: &mut DetectedRobot) -> bool {
+        false
+    }
+
+    fn add(&mut self, _seen: DetectedRobot) {}
 }
 
 /// A ball that a camera detected.
