@@ -83,6 +83,7 @@ def test_radio_and_cameras_may_have_a_file_each(tmp_path: Path) -> None:
         ("time,robot,x,y,theta,speed\n", r"unknown columns \['speed'\]"),
         ("time,robot,x,theta\n", r"a pose needs the columns \['x', 'y'\]; no \['y'\]"),
         ("time,robot,v_x,v_y\n", "command of omni needs"),
+        ("time,robot,x,y,theta,x, y\n", r"expected each column once, got \['x', 'y'\] twice"),
         ("time,robot\n0,a\n", "neither poses"),
         ("time,robot,x,y,theta\n0,a,1,2,3,4\n", "line 2: more cells than columns"),
         ("time,robot,x,y,theta\n0,a,1,2,\n", "line 2: a pose of a needs"),

@@ -22,8 +22,8 @@ def read_log(*paths: str | Path) -> Log:
 
     Raises:
         FileNotFoundError: no such file.
-        ValueError: no file, a file that is no text, columns that are missing or unknown, or a row
-            that `Log.of_rows` refuses.
+        ValueError: no file, a file that is no text, columns that are missing, unknown or repeated,
+            or a row that `Log.of_rows` refuses.
     """
     if not paths:
         raise ValueError("log: expected one file or more, got none")
@@ -78,6 +78,8 @@ def _check_columns(path: str, names: Sequence[str]) -> None:
     if unknown := [name for name in names if name not in (*KEYS, *NUMBERS)]:
         expected = ", ".join((*KEYS, *NUMBERS))
         raise ValueError(f"{path}: unknown columns {unknown}; expected some of {expected}")
+    if repeated := sorted({name for name in names if names.count(name) > 1}):
+        raise ValueError(f"{path}: expected each column once, got {repeated} twice or more")
     groups = {"pose": POSE[:2], **{f"command of {kind}": group for kind, group in DRIVES.items()}}
     for kind, group in groups.items():
         absent = [name for name in group if name not in names]
