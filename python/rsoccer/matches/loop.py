@@ -168,7 +168,7 @@ class Matches:
             forecasting: teams, "blue" or "yellow", that forecast with a `Sensing` whose `forecast`
                 is off. None for those without learners in which all policies that look play from
                 one; a policy for the same as if it drove the learners. A team with a policy that
-                needs a forecast always has one.
+                needs a forecast always has one. Changes nothing without senses.
             randomization: distributions of numbers that each episode draws for itself, by name,
                 such as `{"robot.mass": (0.9, 1.1)}`; see `rsoccer.randomization`. None for the same
                 numbers in all.
