@@ -152,7 +152,7 @@ impl Sensing {
     }
 
     /// Checks every number against its range, numbers that set how much work a step is against limits, and
-    /// errors of detections against what the tracker can follow.
+    /// errors against what trackers, robots and kicks can follow.
     ///
     /// # Errors
     /// [`ConfigError`] with the name of the first wrong number.
@@ -171,6 +171,15 @@ impl Sensing {
             ("sensing.robot_position_noise", self.robot_position_noise, MAX_ERROR, "at most 100 m"),
             ("sensing.heading_noise", self.heading_noise, MAX_ERROR, "at most 100 rad"),
             ("sensing.camera_offset_error", self.camera_offset_error, MAX_ERROR, "at most 100 m"),
+            ("sensing.odometry_noise", self.odometry_noise, MAX_ERROR, "at most 100 m/s"),
+            ("sensing.gyroscope_noise", self.gyroscope_noise, MAX_ERROR, "at most 100 rad/s"),
+            ("sensing.gyroscope_error", self.gyroscope_error, MAX_ERROR, "at most 100 rad/s"),
+            (
+                "sensing.kick_direction_noise",
+                self.kick_direction_noise,
+                MAX_ERROR,
+                "at most 100 rad",
+            ),
         ];
         for (name, got, limit, expected) in limits {
             if got > limit {
@@ -211,8 +220,8 @@ const MAX_FRAME_RATE: f32 = 1000.0;
 const MAX_DELAY: f32 = 1.0;
 /// Maximum number of cameras in each direction.
 const MAX_CAMERAS: f32 = 8.0;
-/// Maximum errors of detections, far beyond all fields: the tracker's squares of larger ones overflow, and
-/// robots would know NaN.
+/// Maximum errors, far beyond all fields, speeds and turns: the tracker's squares of larger ones overflow, own
+/// velocities become infinite and kicked balls NaN, which robots would know.
 const MAX_ERROR: f32 = 100.0;
 
 #[cfg(test)]
@@ -239,6 +248,10 @@ mod tests {
             ("robot_position_noise", 1e20),
             ("heading_noise", 1e10),
             ("camera_offset_error", 101.0),
+            ("odometry_noise", 3e38),
+            ("gyroscope_noise", 101.0),
+            ("gyroscope_error", 101.0),
+            ("kick_direction_noise", 1e9),
         ] {
             let mut sensing = Sensing::OFF;
             *sensing.number_mut(name).expect("a number") = wrong;
