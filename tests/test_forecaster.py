@@ -436,6 +436,8 @@ ZERO = np.zeros(1)
         (lambda _: Forecaster(CONFIG, known="red"), ValueError, "known must be 'blue', 'yellow'"),
         (lambda _: Forecaster(CONFIG, known=cast(str, 1)), TypeError, "known must be"),
         (lambda _: Forecaster(CONFIG, 0), ValueError, "worlds must be at least 1"),
+        (lambda _: Forecaster(CONFIG, cast(int, 1.5)), TypeError, "worlds: expected a whole"),
+        (lambda _: Forecaster(cast(SimConfig, "ssl_b")), TypeError, "config: expected a SimConfig"),
         (lambda _: Sensing(forecast=2.0), ValueError, "sensing.forecast must be between 0 and 1"),
     ],
 )

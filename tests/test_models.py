@@ -5,8 +5,9 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
+import numpy as np
 import pytest
 
 import rsoccer
@@ -234,6 +235,66 @@ def test_a_preset_that_is_no_text_is_refused_by_name(kind: Any) -> None:  # noqa
     message = r"^name: expected a preset's name or the path of a \.json file, got 3$"
     with pytest.raises(TypeError, match=message):
         kind(3)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: Sensing.preset(cast(str, 5)), "name: expected a preset's name, got 5"),
+        (lambda: Sensing.from_json(cast(str, 5)), "text: expected JSON of a Sensing, got 5"),
+        (lambda: RobotModel.from_json(cast(str, 5)), "text: expected JSON of a RobotModel, got 5"),
+        (lambda: SimConfig.from_json(cast(str, 5)), "text: expected JSON of a SimConfig, got 5"),
+        (
+            lambda: MIXED.with_sensing(cast(Sensing, "rc2021")),
+            "sensing: expected a Sensing or None, got 'rc2021'",
+        ),
+        (lambda: Simulator(cast(SimConfig, "ssl_b")), "config: expected a SimConfig, got 'ssl_b'"),
+        (lambda: Simulator(MIXED, cast(int, 1.5)), "worlds: expected a whole number, got 1.5"),
+    ],
+)
+def test_arguments_without_defaults_are_refused_by_name(
+    make: Callable[[], object], message: str
+) -> None:
+    with pytest.raises(TypeError, match=f"^{message}"):
+        make()
+
+
+@pytest.mark.parametrize("wrong", [True, np.False_], ids=["bool", "numpy"])
+@pytest.mark.parametrize(
+    ("kind", "name", "number"),
+    [
+        (Sensing, "rc2021", "delay"),
+        (RobotModel, "vss_440rpm", "mass"),
+        (BallModel, "vss_rsim", "mass"),
+        (Field, "ssl_b", "length"),
+    ],
+)
+def test_numbers_are_no_bools(
+    kind: Callable[..., object], name: str, number: str, wrong: object
+) -> None:
+    with pytest.raises(TypeError, match=f"^{number}: expected a number, got .*(True|False)"):
+        kind(name, **{number: wrong})
+    assert getattr(kind(name, **{number: np.float32(0.5)}), number) == 0.5
+
+
+@pytest.mark.parametrize(
+    ("kind", "text"),
+    [
+        (Sensing, '{"delay": 0.1, "delay": 0.2}'),
+        (Sensing, '{"preset": "rc2021", "delay": 0.1, "delay": 0.2}'),
+        (Sensing, '{"sensing": {"delay": 0.1, "delay": 0.2}}'),
+        (RobotModel, '{"preset": "vss_440rpm", "mass": 0.1, "mass": 0.2}'),
+        (BallModel, '{"preset": "vss_rsim", "mass": 0.1, "mass": 0.2}'),
+        (Field, '{"preset": "ssl_b", "length": 9, "length": 12}'),
+    ],
+)
+def test_a_text_that_names_a_number_twice_is_refused(
+    kind: type[Sensing | RobotModel | BallModel | Field], text: str
+) -> None:
+    name = next(part for part in ("delay", "mass", "length") if part in text)
+    message = f"text is not a {kind.__name__}: duplicate field `{name}`"
+    with pytest.raises(ValueError, match=message):
+        kind.from_json(text)
 
 
 @pytest.mark.parametrize("name", rsoccer.list_tasks())

@@ -229,6 +229,13 @@ def test_a_simulator_without_senses_is_refused() -> None:
         (lambda: Sensing(position_noise=1e20), "ball_position_noise must be at most 100 m"),
         (lambda: Sensing(heading_noise=1e10), "heading_noise must be at most 100 rad"),
         (lambda: Sensing(camera_offset_error=101), "camera_offset_error must be at most 100 m"),
+        (lambda: Sensing(odometry_noise=3e38), "odometry_noise must be at most 100 m/s"),
+        (lambda: Sensing(gyroscope_noise=3e38), "gyroscope_noise must be at most 100 rad/s"),
+        (lambda: Sensing(gyroscope_error=3e38), "gyroscope_error must be at most 100 rad/s"),
+        (lambda: Sensing(kick_direction_noise=1e9), "kick_direction_noise must be at most 100 rad"),
+        (lambda: Sensing("rc2021, delay=x"), '^sensing: expected number=value .*, got "delay=x"'),
+        (lambda: Sensing("rc2021 delay=.1"), "^sensing: expected number=value after the name and"),
+        (lambda: Sensing("rc2021, dely=.1"), '^sensing: rc2021 has no "dely"; its numbers are'),
     ],
 )
 def test_wrong_senses_are_refused(make: Callable[[], Sensing], message: str) -> None:
@@ -238,7 +245,9 @@ def test_wrong_senses_are_refused(make: Callable[[], Sensing], message: str) -> 
 
 def test_the_largest_errors_leave_numbers_finite() -> None:
     largest = {"position_noise": 100, "heading_noise": 100, "camera_offset_error": 100}
-    for text in ("none", "rc2021", "rc2021, forecast=1"):
+    largest |= {"odometry_noise": 100, "gyroscope_noise": 100, "gyroscope_error": 100}
+    largest |= {"kick_direction_noise": 100}
+    for text in ("none", "odometry=1", "rc2021", "rc2021, forecast=1"):
         matches = Matches("SSLContestedPossession-v0", 2, sensing=Sensing(text, **largest))
         matches.reset(seed=1)
         actions = np.zeros((2, len(matches.agents), matches.action_size), np.float32)

@@ -21,13 +21,19 @@ pub(crate) fn argument<'py, T: FromPyObjectOwned<'py>>(
     value: Given<'py>,
     default: impl FnOnce() -> T,
 ) -> PyResult<T> {
-    let Some(value) = value else {
-        return Ok(default());
-    };
+    value.map_or_else(|| Ok(default()), |value| required(name, expected, &value))
+}
+
+/// Converts an argument without a default, as [`argument`] does.
+pub(crate) fn required<'py, T: FromPyObjectOwned<'py>>(
+    name: &str,
+    expected: &str,
+    value: &Bound<'py, PyAny>,
+) -> PyResult<T> {
     value.extract().map_err(|error: <T as FromPyObject<'_, 'py>>::Error| {
         let error: PyErr = error.into();
         if error.is_instance_of::<PyTypeError>(value.py()) {
-            return unexpected(name, expected, &value);
+            return unexpected(name, expected, value);
         }
         error
     })

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 use rsim_core::{EngineKind, League};
 
-use crate::arguments::{Given, argument, given};
+use crate::arguments::{Given, argument, given, required};
 use crate::models::{BallModel, Field, Model, RobotModel, Sensing, named, shortest};
 
 /// Configuration of a simulator.
@@ -131,7 +131,10 @@ impl SimConfig {
         self.0.sensing.clone().map(Sensing)
     }
 
-    fn with_sensing(&self, sensing: Option<Sensing>) -> PyResult<Self> {
+    fn with_sensing(&self, sensing: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+        let sensing = sensing
+            .map(|sensing| required::<Sensing>("sensing", "a Sensing or None", sensing))
+            .transpose()?;
         let sensing = sensing.map(|sensing| sensing.0);
         let config = rsim_core::SimConfig { sensing, ..self.0.clone() };
         config.validate().map_err(invalid)?;
@@ -164,8 +167,9 @@ impl SimConfig {
     }
 
     #[classmethod]
-    fn from_json(_class: &Bound<'_, PyType>, text: &str) -> PyResult<Self> {
-        let config: rsim_core::SimConfig = serde_json::from_str(text).map_err(|error| {
+    fn from_json(_class: &Bound<'_, PyType>, text: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let text: String = required("text", "JSON of a SimConfig", text)?;
+        let config: rsim_core::SimConfig = serde_json::from_str(&text).map_err(|error| {
             PyValueError::new_err(format!("text is not a configuration: {error}"))
         })?;
         config.validate().map_err(invalid)?;
@@ -220,6 +224,16 @@ fn robot_models(robot: &Bound<'_, PyAny>, n_robots: usize) -> PyResult<Vec<rsim_
 /// A `ValueError` with the core's message.
 pub(crate) fn invalid(error: impl std::fmt::Display) -> PyErr {
     PyValueError::new_err(error.to_string())
+}
+
+/// Converts the argument `config` of a constructor.
+pub(crate) fn of_argument(value: &Bound<'_, PyAny>) -> PyResult<SimConfig> {
+    required("config", "a SimConfig", value)
+}
+
+/// Converts the argument `worlds` of a constructor.
+pub(crate) fn worlds(value: &Bound<'_, PyAny>) -> PyResult<usize> {
+    count("worlds", required("worlds", "a whole number", value)?)
 }
 
 /// A count from Python, which may be negative there.

@@ -7,7 +7,7 @@ use pyo3::types::PyBytes;
 use rsim_core::Knowledge;
 
 use crate::arrays::{Commands, InputRows, Mask, RowsOut, finite, readable, values, writeable};
-use crate::config::{SimConfig, count, invalid};
+use crate::config::{SimConfig, invalid, of_argument, worlds};
 use crate::threads::ThreadsOrCount;
 
 /// Robots whose commands are known, by their team or "all".
@@ -41,12 +41,11 @@ impl Forecaster {
         text_signature = "(config, worlds=1, threads=1, known='all')")]
     fn new(
         py: Python<'_>,
-        config: SimConfig,
-        worlds: i64,
+        #[pyo3(from_py_with = of_argument)] config: SimConfig,
+        #[pyo3(from_py_with = worlds)] worlds: usize,
         threads: ThreadsOrCount<'_>,
         known: Known,
     ) -> PyResult<Self> {
-        let worlds = count("worlds", worlds)?;
         let threads = threads.started(py)?;
         let made = rsim_core::Forecaster::new(&config.0, worlds, known.0, threads);
         made.map(Self).map_err(invalid)

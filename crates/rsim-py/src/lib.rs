@@ -9,6 +9,7 @@ mod bounds;
 mod config;
 mod ego_features;
 mod forecaster;
+mod json;
 mod match_arrays;
 mod models;
 mod moments;

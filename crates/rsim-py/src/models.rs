@@ -5,14 +5,15 @@
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use pyo3::conversion::FromPyObjectOwned;
-use pyo3::exceptions::{PyAttributeError, PyFileNotFoundError, PyTypeError, PyValueError};
+use pyo3::exceptions::{PyAttributeError, PyFileNotFoundError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyCFunction, PyDict, PyString, PyTuple, PyType};
+use pyo3::types::{PyBool, PyCFunction, PyDict, PyString, PyTuple, PyType};
 use rsim_core::{Drive, Number};
 use serde_json::Value;
 
-use crate::arguments::{text_or_path, unexpected};
+use crate::arguments::{required, text_or_path, unexpected};
 use crate::config::invalid;
+use crate::json::Unique;
 
 /// End of the names of files that hold a model.
 const SUFFIX: &str = ".json";
@@ -49,9 +50,10 @@ pub(crate) trait Model: Sized + Clone + for<'py> FromPyObjectOwned<'py> {
         let mut given = Vec::new();
         for (key, value) in numbers.into_iter().flatten() {
             let key: String = key.extract()?;
-            let number = value.extract().map_err(|_| {
-                PyTypeError::new_err(format!("{key}: expected a number, got {value:?}"))
-            })?;
+            let number = if is_bool(&value)? { None } else { value.extract().ok() };
+            let Some(number) = number else {
+                return Err(unexpected(&key, "a number", &value));
+            };
             given.push((key, number));
         }
         self.set_all(given)?;
@@ -85,7 +87,12 @@ pub(crate) trait Model: Sized + Clone + for<'py> FromPyObjectOwned<'py> {
     /// The model of a JSON text: of `to_json`, a preset's name with the numbers that differ, or an object
     /// with one of these as its part.
     fn parsed(text: &str) -> PyResult<Self> {
-        let Ok(Value::Object(mut numbers)) = serde_json::from_str(text) else {
+        let numbers = match serde_json::from_str(text) {
+            Err(error) if error.is_data() => return Err(Self::undecodable(&error)),
+            Ok(Unique(Value::Object(numbers))) => Some(numbers),
+            _ => None,
+        };
+        let Some(mut numbers) = numbers else {
             return Self::decoded(text)?.with(None);
         };
         if let Some(part @ Value::Object(_)) = numbers.get(Self::PART) {
@@ -116,6 +123,11 @@ pub(crate) trait Model: Sized + Clone + for<'py> FromPyObjectOwned<'py> {
         model.set_all(given)?;
         model.validate()?;
         Ok(model)
+    }
+
+    /// The error of a JSON text that holds no such model.
+    fn undecodable(error: &serde_json::Error) -> PyErr {
+        PyValueError::new_err(format!("text is not a {}: {error}", Self::CLASS))
     }
 
     /// The model in a file.
@@ -177,24 +189,40 @@ fn of_text<T: Model>(text: &str) -> PyResult<T> {
         Some(name) => of_text(name)?,
         None => T::preset(OFF).or_else(|_| T::preset(text))?,
     };
+    let within = |error: String| PyValueError::new_err(format!("{}: {error}", T::PART));
     let mut given: Vec<(String, f32)> = Vec::new();
     for part in parts {
-        let pair = part.split_once('=').map(|(key, value)| (key.trim(), value.trim()));
-        let Some((key, Ok(number))) = pair.map(|(key, value)| (key, value.parse::<f64>())) else {
-            return Err(PyValueError::new_err(format!(
-                "expected number=value after the name, as in 'rc2021, delay=0.1', got {part:?} in {text:?}"
+        let Some((key, number)) = replaced(part) else {
+            return Err(within(format!(
+                "expected number=value after the name and a comma, as in 'rc2021, delay=0.1', got \
+                 {part:?} in {text:?}"
             )));
         };
         if given.iter().any(|(before, _)| before == key) {
-            return Err(PyValueError::new_err(format!(
+            return Err(within(format!(
                 "expected each number once, got {key:?} twice in {text:?}"
             )));
         }
-        given.push((key.to_owned(), narrowed(number)));
+        given.push((key.to_owned(), number));
     }
-    model.set_all(given)?;
+    model.set_all(given).map_err(|error| within(message(&error)))?;
     model.validate()?;
     Ok(model)
+}
+
+/// Name and value of a number in a text, as in `delay=0.1`.
+fn replaced(part: &str) -> Option<(&str, f32)> {
+    let (key, value) = part.split_once('=')?;
+    let key = key.trim();
+    let number = value.trim().parse().ok()?;
+    (!key.contains(char::is_whitespace)).then_some((key, narrowed(number)))
+}
+
+/// Whether a value is a bool, which converts to a number: Python's or NumPy's.
+fn is_bool(value: &Bound<'_, PyAny>) -> PyResult<bool> {
+    let class = value.get_type();
+    Ok(value.is_instance_of::<PyBool>()
+        || (class.module()? == "numpy" && class.name()?.to_str()?.starts_with("bool")))
 }
 
 /// The nearest float.
@@ -260,9 +288,7 @@ macro_rules! mirror {
             }
 
             fn decoded(text: &str) -> PyResult<Self> {
-                serde_json::from_str(text).map(Self).map_err(|error| {
-                    PyValueError::new_err(format!("text is not a {}: {error}", stringify!($name)))
-                })
+                serde_json::from_str(text).map(Self).map_err(|error| Self::undecodable(&error))
             }
 
             fn numbers() -> Vec<Number> {
@@ -304,8 +330,12 @@ macro_rules! mirror {
             }
 
             #[classmethod]
-            fn from_json(_class: &Bound<'_, PyType>, text: &str) -> PyResult<Self> {
-                Self::parsed(text)
+            fn from_json(
+                _class: &Bound<'_, PyType>,
+                text: &Bound<'_, PyAny>,
+            ) -> PyResult<Self> {
+                let expected = concat!("JSON of a ", stringify!($name));
+                Self::parsed(&required::<String>("text", expected, text)?)
             }
 
             fn __hash__(&self) -> u64 {
@@ -434,8 +464,8 @@ mirror!(
     {
         #[classmethod]
         #[pyo3(name = "preset")]
-        fn of_preset(_class: &Bound<'_, PyType>, name: &str) -> PyResult<Self> {
-            <Self as Model>::preset(name)
+        fn of_preset(_class: &Bound<'_, PyType>, name: &Bound<'_, PyAny>) -> PyResult<Self> {
+            <Self as Model>::preset(&required::<String>("name", "a preset's name", name)?)
         }
 
         #[getter]

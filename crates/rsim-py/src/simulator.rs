@@ -10,7 +10,7 @@ use rsim_core::{Batch, PlaceError};
 use crate::arrays::{
     Commands, InputRows, Keys, Mask, RobotsMask, Rows, RowsOut, finite, readable, values, writeable,
 };
-use crate::config::{SimConfig, count, invalid};
+use crate::config::{SimConfig, invalid, of_argument, worlds};
 use crate::forecaster::Known;
 use crate::threads::ThreadsOrCount;
 
@@ -28,11 +28,10 @@ impl Simulator {
         text_signature = "(config, worlds=1, threads=1)")]
     fn new(
         py: Python<'_>,
-        config: SimConfig,
-        worlds: i64,
+        #[pyo3(from_py_with = of_argument)] config: SimConfig,
+        #[pyo3(from_py_with = worlds)] worlds: usize,
         threads: ThreadsOrCount<'_>,
     ) -> PyResult<Self> {
-        let worlds = count("worlds", worlds)?;
         let threads = threads.started(py)?;
         let batch = py.detach(|| Batch::on_threads(&config.0, worlds, threads));
         Ok(Self(batch.map_err(invalid)?))

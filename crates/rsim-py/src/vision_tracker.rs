@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 use rsim_core::SeenRobot;
 
 use crate::arrays::{RowsOut, finite, readable, sizes, values, writeable};
-use crate::config::{SimConfig, invalid};
+use crate::config::{SimConfig, invalid, of_argument};
 
 /// Columns of a detected robot: index, position, cosine and sine of the heading.
 const ROBOT_COLUMNS: usize = 5;
@@ -23,7 +23,7 @@ type Commands<'py> = PyReadonlyArray<'py, f32, Ix2>;
 impl VisionTracker {
     #[new]
     #[pyo3(signature = (config))]
-    fn new(config: SimConfig) -> PyResult<Self> {
+    fn new(#[pyo3(from_py_with = of_argument)] config: SimConfig) -> PyResult<Self> {
         rsim_core::VisionTracker::new(&config.0).map(Self).map_err(invalid)
     }
 
