@@ -218,7 +218,7 @@ fn replaced(part: &str) -> Option<(&str, f32)> {
     (!key.contains(char::is_whitespace)).then_some((key, narrowed(number)))
 }
 
-/// Whether a value is a bool, which converts to a number: Python's or NumPy's.
+/// Whether a value is a bool, which converts to a number: Python's or `NumPy`'s.
 fn is_bool(value: &Bound<'_, PyAny>) -> PyResult<bool> {
     let class = value.get_type();
     Ok(value.is_instance_of::<PyBool>()
