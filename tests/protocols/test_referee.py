@@ -120,11 +120,19 @@ def test_stamps_count_commands() -> None:
 
 def test_events_are_reported_until_play_goes_on() -> None:
     log, event = EventLog(), Event(EventKind.GOAL, YELLOW, 3, (0.0, 0.0))
-    assert [reported.identity for reported in log.add(Command.STOP, [event], 1.0)] == ["rsoccer-1"]
-    reported = log.add(Command.STOP, [event], 2.0)
-    assert [(each.identity, each.seconds) for each in reported] == [
-        ("rsoccer-1", 1.0),
-        ("rsoccer-2", 2.0),
-    ]
-    assert [each.identity for each in log.add(Command.FORCE_START, [event], 3.0)] == ["rsoccer-3"]
-    assert log.add(Command.NORMAL_START, [], 4.0) == ()
+
+    def add(
+        command: Command, events: list[Event], seconds: float, *, in_play: bool = False
+    ) -> list[tuple[str, float]]:
+        reported = log.add(command, events, seconds, in_play=in_play)
+        return [(each.identity, each.seconds) for each in reported]
+
+    assert add(Command.STOP, [event], 1.0) == [("rsoccer-1", 1.0)]
+    assert add(Command.STOP, [event], 2.0) == [("rsoccer-1", 1.0), ("rsoccer-2", 2.0)]
+    assert add(Command.FORCE_START, [event], 3.0) == [("rsoccer-3", 3.0)]
+    assert add(Command.NORMAL_START, [], 4.0) == []
+    # A free kick has no command with which play goes on.
+    assert add(Command.STOP, [event], 5.0) == [("rsoccer-4", 5.0)]
+    assert add(Command.DIRECT_FREE_BLUE, [], 6.0) == [("rsoccer-4", 5.0)]
+    assert add(Command.DIRECT_FREE_BLUE, [], 7.0, in_play=True) == []
+    assert add(Command.STOP, [event], 8.0) == [("rsoccer-5", 8.0)]

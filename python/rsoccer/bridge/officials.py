@@ -22,10 +22,11 @@ VSS_PERIOD: Final = 0.5
 _WATCHED: Final = np.array(
     [
         GAME_COLUMNS.index(name)
-        for name in ("command", "stage", "next_command", "score_blue", "score_yellow")
+        for name in ("command", "stage", "next_command", "score_blue", "score_yellow", "in_play")
     ]
 )
 """Columns whose change is reported at once."""
+_IN_PLAY: Final = GAME_COLUMNS.index("in_play")
 _STEPS: Final = GAME_COLUMNS.index("command_steps")
 SOURCE: Final = "rSoccer-serve"
 """Identity of the sender."""
@@ -81,7 +82,8 @@ class GameController(Officials):
             return []
         game, happened = play.game, play.events.of_world(0)
         command, wire_time = Command(int(state[0])), session.epoch + seconds
-        reported = self._events.add(command, happened, wire_time)
+        in_play = bool(row[_IN_PLAY])
+        reported = self._events.add(command, happened, wire_time, in_play=in_play)
         self._last, self._next = state, seconds + PERIOD - 1e-9
         status = status_of_game(
             session.layout, game, 0, arena.rule.rules, names=_names(session), events=reported

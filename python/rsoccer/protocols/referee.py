@@ -139,7 +139,12 @@ class EventLog:
         self._count = 0
 
     def add(
-        self, command: Command, events: Iterable[game.Event], seconds: float
+        self,
+        command: Command,
+        events: Iterable[game.Event],
+        seconds: float,
+        *,
+        in_play: bool,
     ) -> tuple[ReportedEvent, ...]:
         """Add the events of a step, and return all that a packet reports.
 
@@ -148,11 +153,13 @@ class EventLog:
                 events of its own step alone.
             events: events of the step.
             seconds: time of the step, Unix time, s.
+            in_play: whether the ball is in play after the step: a free kick has no command with
+                which play goes on.
 
         Returns:
             The events since play stopped, in the order in which they happened.
         """
-        if command in RUNNING:
+        if command in RUNNING or in_play:
             self._reported.clear()
         for event in events:
             self._count += 1

@@ -92,9 +92,10 @@ def log_entries(replay: Recorded, layout: WireLayout, start: float = 0.0) -> Ite
         yield LogEntry(time, LogKind.TRACKER, tracked.SerializeToString())
         if states is None:
             continue
-        since_stop = events.add(states[i].command, reported.get(i, ()), seconds)
-        status = status_of_recorded(states[i], names=replay.names, events=since_stop)
-        again = i > 0 and states[i].command_seconds < states[i - 1].command_seconds
+        state = states[i]
+        since_stop = events.add(state.command, reported.get(i, ()), seconds, in_play=state.in_play)
+        status = status_of_recorded(state, names=replay.names, events=since_stop)
+        again = i > 0 and state.command_seconds < states[i - 1].command_seconds
         stamp = stamper.stamp(status.command, seconds, again=again)
         try:
             packet = referee.to_packet(layout, status, stamp, source_identifier=UUID)
