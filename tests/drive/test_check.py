@@ -152,6 +152,29 @@ def test_robots_that_the_task_does_not_have_take_space() -> None:
     assert not link.frame.robots.velocity[0, 5].round(3).any()
 
 
+@pytest.mark.parametrize(
+    ("division", "x", "room"), [("A", 5.0, None), ("B", 4.4, r"0\.10 m to a line")]
+)
+def test_lines_are_those_of_the_field_that_vision_tells(
+    division: str, x: float, room: str | None
+) -> None:
+    link = ServerLink(referee="off", division=division)
+    field = "ssl_b" if division == "A" else "ssl_a"
+    connection = connected(SimConfig(field, 1, 0), link, "ssl-simulation", ids=(5,))
+    for _ in range(20):
+        link.tick()  # the first geometry is missed
+    link.poll(0.0)
+    command = simulation_pb2.Command()
+    robot = command.control.teleport_robot.add(x=x, y=2.0, orientation=0.0)
+    robot.id.id, robot.id.team = 5, simulation_pb2.BLUE
+    link.server.receive("control", command.SerializeToString(), ("127.0.0.1", 5109), link.now)
+    if room is None:
+        assert check_robot(connection, 0).is_right
+    else:
+        with pytest.raises(ValueError, match=rf"check: expected 0\.47 m of free .*, got {room}"):
+            check_robot(connection, 0)
+
+
 def test_a_robot_whose_number_was_misread_takes_no_space() -> None:
     link = ServerLink(referee="off")
     connection = connected(SSL, link, "ssl-simulation", ids=(5,), patience=0.25)

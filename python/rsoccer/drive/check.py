@@ -25,6 +25,8 @@ REST: Final = 0.5
 """Time to stand after it, s."""
 LOOK: Final = 0.3
 """Time for which frames are awaited before it, so that all cameras have sent some, s."""
+GEOMETRY_SECONDS: Final = 1.5
+"""Longest time for which the size of the field is awaited, s: SSL-Vision tells it once a second."""
 MARGIN: Final = 0.05
 """Space that is left around the robot at the ends of its ways, m."""
 RIGHT: Final = (0.5, 1.5)
@@ -144,14 +146,16 @@ def check_robot(connection: Connection, slot: int) -> CheckedRobot:
 
 
 def _look(connection: Connection, slot: int) -> None:
-    """Wait until the robot is in sight and all cameras have sent frames."""
+    """Wait until the robot is in sight, all cameras have sent frames, and the field is known."""
     sight, words = connection.sight, _words(connection.layout.identity(slot))
     seen = sight.frames
     connection.stand(
         lambda: sight.frames > seen and bool(sight.in_sight[slot]), f"{words} in sight"
     )
-    until = sight.clock.now + LOOK
-    while (now := sight.clock.now) < until:
+    begun = sight.clock.now
+    while (now := sight.clock.now) < begun + LOOK or (
+        sight.field_size is None and now < begun + GEOMETRY_SECONDS
+    ):
         connection.stand(lambda now=now: sight.clock.now > now, "a frame")  # type: ignore[misc]
 
 
@@ -169,13 +173,15 @@ def _place(row: Floats, slot: int) -> Floats:
 
 
 def _check_space(connection: Connection, row: Floats, slot: int) -> None:
-    field, place, sight = connection.config.field, _place(row, slot), connection.sight
+    place, sight = _place(row, slot), connection.sight
+    field = connection.config.field
+    length, width = sight.field_size or (field.length, field.width)
     own = reach(connection.config.robots[slot])
 
     def distance(other: Array) -> float:
         return float(np.hypot(*(place[:2] - other)))
 
-    free = {"a line": min(field.length / 2 - abs(place[0]), field.width / 2 - abs(place[1]))}
+    free = {"a line": min(length / 2 - abs(place[0]), width / 2 - abs(place[1]))}
     if sight.has_ball:
         free["the ball"] = distance(row[0, :2])
     for other in range(connection.config.n_robots):

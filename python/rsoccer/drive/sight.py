@@ -205,7 +205,8 @@ class DetectionSight(Sight):
         message = parse(vision_pb2.Packet, data)
         if message.HasField("geometry"):
             size = message.geometry.field
-            self.field_size = size.field_length / MILLIMETERS, size.field_width / MILLIMETERS
+            if min(size.field_length, size.field_width) > 0:
+                self.field_size = size.field_length / MILLIMETERS, size.field_width / MILLIMETERS
         if not message.HasField("detection"):
             return False
         detection = message.detection
