@@ -11,6 +11,7 @@ from rsoccer.drive.state_sight import FiraSight, make_sight
 from rsoccer.frame import Frame
 from rsoccer.game import BLUE, YELLOW
 from rsoccer.protocols import fira, tracker, vision
+from rsoccer.protocols.cameras import Camera
 from rsoccer.protocols.errors import MessageError
 from rsoccer.protocols.layout import WireLayout
 from rsoccer.protocols.schemas import vision_pb2
@@ -215,6 +216,21 @@ def test_a_tracker_that_starts_again_is_taken() -> None:
     assert taken >= 120 - 31 - 3
     assert sight.counts["tracker: another source"] == 1
     assert sight.in_sight.all()
+
+
+def test_a_field_without_a_size_is_none() -> None:
+    layout = WireLayout(CONFIG)
+    sight = make_sight(layout, "ssl", "vision")
+    message = vision_pb2.Packet.FromString(
+        packet(layout, state(CONFIG), 0, 50.0, geometry=[Camera()])
+    )
+    known = (CONFIG.field.length, CONFIG.field.width)
+    for size, expected in (((0, 0), None), (None, known), ((0, 9000), known)):
+        field = vision_pb2.Packet.FromString(message.SerializeToString())
+        if size is not None:
+            field.geometry.field.field_length, field.geometry.field.field_width = size
+        sight.take(field.SerializeToString())
+        assert sight.field_size == (None if expected is None else pytest.approx(expected))
 
 
 def test_robots_out_of_sight_are_absent() -> None:

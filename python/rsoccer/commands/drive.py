@@ -178,7 +178,6 @@ class Drive(Imports):
         try:
             session.connection.on_event.append(_tell)
             session.begin()
-            _tell_field(session.connection)
             self._steps(session)
         finally:
             session.close()
@@ -208,6 +207,7 @@ class Drive(Imports):
         assert self.check is not None, "the caller has checked it"
         connection = Connection(task.config, settings)
         try:
+            connection.on_event.append(_tell)
             layout, team = connection.layout, TEAM_NAMES.index(settings.team)
             numbers = layout.ids[layout.exchanged(team)]
             if self.check not in numbers:
@@ -229,16 +229,6 @@ def _interrupt(*_: int | FrameType | None) -> None:
 
 def _tell(text: str) -> None:
     sys.stderr.write(f"{text}\n")
-
-
-def _tell_field(connection: Connection) -> None:
-    """Tell of a field of another size than that of the task."""
-    field, size = connection.config.field, connection.sight.field_size
-    if size is not None and max(abs(field.length - size[0]), abs(field.width - size[1])) > 0.05:
-        _tell(
-            f"field: the task's is {field.length:g} x {field.width:g} m, that of vision "
-            f"{size[0]:g} x {size[1]:g} m"
-        )
 
 
 def _report(connection: Connection) -> None:

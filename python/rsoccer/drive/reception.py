@@ -22,6 +22,8 @@ REFUSALS: Final = ("TEAM_TAKEN", "UNKNOWN_ROBOT")
 REFUSED_SECONDS: Final = 3.0
 """Time for which commands are refused until a connection gives up, s: a simulator gives a team free
 one second after its last client fell silent."""
+FIELD_TOLERANCE: Final = 0.05
+"""Difference of length or width from which a field is another one, m."""
 CONTACT_SECONDS: Final = 0.2
 """Time for which the report of a break beam counts, s."""
 
@@ -35,7 +37,8 @@ class Reception:
         sight: what is seen.
         counts: numbers of datagrams by what became of them, such as "vision: unreadable", and of
             bodies that are ignored, by the reason.
-        on_event: called with words for what happens to vision, sides and referee.
+        on_event: called with words for what happens to vision, sides and referee, and once for a
+            field of another size than that of the task.
     """
 
     def __init__(
@@ -67,6 +70,7 @@ class Reception:
         self._problem = ""
         self._refusals: dict[str, tuple[str, float]] = {}  # by port, as each has its own client
         self._seen_at = clock()
+        self._knows_field = False
 
     @property
     def silence(self) -> float:
@@ -142,9 +146,23 @@ class Reception:
         known, cut = self.contact()
         self.sight.cut = np.flatnonzero(cut).tolist() if known.any() else None
         is_newer = self.sight.take(data)
+        self._compare_fields()
         if is_newer:  # frames whose clock stands still are as good as none
             self._seen_at = self._clock()
         return is_newer
+
+    def _compare_fields(self) -> None:
+        """Tell of a field of another size than that of the task, as soon as vision tells it."""
+        size = self.sight.field_size
+        if size is None or self._knows_field:
+            return
+        self._knows_field = True
+        field = self.layout.config.field
+        if max(abs(field.length - size[0]), abs(field.width - size[1])) > FIELD_TOLERANCE:
+            self.tell(
+                f"field: the task's is {field.length:g} x {field.width:g} m, that of vision "
+                f"{size[0]:g} x {size[1]:g} m"
+            )
 
     def _turn(self) -> None:
         """Take note of other sides, as the teams change them between the halves."""
