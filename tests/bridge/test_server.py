@@ -178,6 +178,16 @@ def test_control_that_cannot_be_honored_says_so() -> None:
     assert Wall(allow_remote_control=True).control(simulation_pb2.Command(), REMOTE) == []
 
 
+def test_control_from_an_address_of_this_machine_is_obeyed() -> None:
+    wall = Wall()
+    command = simulation_pb2.Command()
+    command.control.teleport_ball.x = 1.0
+    assert wall.control(command, REMOTE) == ["REMOTE_CONTROL"]
+    wall.server.session.is_own_host = lambda host: host == REMOTE[0]
+    assert wall.control(command, REMOTE) == []
+    assert wall.control(command, ("192.0.2.8", 5004)) == ["REMOTE_CONTROL"]
+
+
 def test_robots_can_be_exchanged_while_the_match_goes_on() -> None:
     wall = Wall()
     wall.tick(20)

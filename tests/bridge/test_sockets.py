@@ -18,6 +18,7 @@ from rsoccer.bridge.sockets import (
     Network,
     SocketLoop,
     group_receiver,
+    is_own_host,
     receiver,
     sender,
 )
@@ -126,6 +127,14 @@ def test_a_server_of_this_machine_hears_no_other_referee(
     counts = server.session.counts
     assert counts["referee: not of this machine"] == is_local
     assert counts["referee: unreadable"] == 2 - is_local
+
+
+def test_addresses_of_this_machine_are_known(places: Network) -> None:
+    assert is_own_host(LOOPBACK)
+    assert not is_own_host("192.0.2.7")
+    server = Server(Settings())
+    with SocketLoop(server, places):
+        assert server.session.is_own_host is is_own_host
 
 
 def test_messages_that_take_long_leave_time_for_ticks(places: Network) -> None:

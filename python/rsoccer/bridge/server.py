@@ -13,7 +13,7 @@ from typing import Final
 from rsoccer import checks
 from rsoccer.bridge.awaited_answers import AwaitedAnswers
 from rsoccer.bridge.external_referee import ExternalReferee
-from rsoccer.bridge.session import Datagram, Session, is_loopback
+from rsoccer.bridge.session import Datagram, Session
 from rsoccer.bridge.settings import Settings
 from rsoccer.bridge.ssl_ports import STATUS_PORTS, SslPorts
 from rsoccer.bridge.team import Address
@@ -98,7 +98,7 @@ class Server:
         """
         counts = self.session.counts
         counts[f"{port}: received"] += 1
-        if port == "referee" and self.is_local and not is_loopback(address):
+        if port == "referee" and self.is_local and not self.session.is_of_this_machine(address):
             counts["referee: not of this machine"] += 1
             return []
         answered = [] if self.session.clock else self._awaited.before_message()

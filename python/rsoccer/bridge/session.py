@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ipaddress
 from collections import Counter
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -45,6 +46,8 @@ class Session:
         epoch: time of the start, Unix time, s.
         recorders: recorders at work whose robots must stay the same.
         counts: numbers of messages by what became of them, such as "blue: received".
+        is_own_host: whether a host is one of this machine beside the loopback; `SocketLoop` sets
+            it, as nobody knows without a network.
     """
 
     def __init__(self, settings: Settings, epoch: float = 0.0) -> None:
@@ -79,6 +82,7 @@ class Session:
         self.epoch = epoch
         self.recorders = 0
         self.counts: Counter[str] = Counter()
+        self.is_own_host: Callable[[str], bool] = lambda host: False
         config = self.arena.config
         self._commands: Floats = np.zeros(
             (config.n_robots, len(config.command_columns)), np.float32
@@ -127,7 +131,15 @@ class Session:
         Args:
             address: its address.
         """
-        return self.settings.allow_remote_control or is_loopback(address)
+        return self.settings.allow_remote_control or self.is_of_this_machine(address)
+
+    def is_of_this_machine(self, address: Address) -> bool:
+        """Return whether an address is one of this machine.
+
+        Args:
+            address: host and port.
+        """
+        return is_loopback(address) or self.is_own_host(address[0])
 
     def place(self, placement: Placement) -> list[Reason]:
         """Return what is refused of a message that puts bodies; the rest is done.
@@ -156,7 +168,7 @@ def _new_task(settings: Settings) -> Match:
 
 
 def is_loopback(address: Address) -> bool:
-    """Return whether an address is one of this machine.
+    """Return whether an address is one of the loopback, which no other machine has.
 
     Args:
         address: host and port.

@@ -28,6 +28,7 @@ BUFFER: Final = 1 << 20
 """Bytes of a socket's buffers that are asked for."""
 LONGEST_WAIT: Final = 0.5
 """Longest time without a look at whether to stop, s."""
+_ANY_PORT: Final = 9
 _IP_MULTICAST_ALL: Final = 49
 """Option of Linux, which `socket` does not name (ip(7))."""
 
@@ -158,6 +159,22 @@ def group_receiver(group: str, port: int, interface: str) -> socket.socket:
     return made
 
 
+def is_own_host(host: str) -> bool:
+    """Return whether a host is this machine.
+
+    Args:
+        host: its address.
+    """
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as made:
+        try:
+            # Nothing is sent. What goes to an address of this machine comes from there; to bind
+            # to it tells less, as machines may allow that for any address.
+            made.connect((host, _ANY_PORT))
+        except OSError:
+            return False
+        return bool(made.getsockname()[0] == host)
+
+
 class SocketLoop:
     """A server on the network; a `with` statement closes its sockets.
 
@@ -185,6 +202,7 @@ class SocketLoop:
             ipaddress.IPv4Address(text).is_loopback
             for text in (network.host, network.interface_address)
         )
+        server.session.is_own_host = is_own_host
         self._stack = contextlib.ExitStack()
         self._selector = self._stack.enter_context(selectors.DefaultSelector())
         self._sockets: dict[str, socket.socket] = {}
