@@ -12,7 +12,7 @@ from rsoccer import Sensing
 from rsoccer.bridge.arena import Arena, CameraFrame
 from rsoccer.bridge.match_tasks import make_match
 from rsoccer.bridge.message_rows import MessageRows, field_of
-from rsoccer.bridge.tracker_packets import SOURCE_NAME, UUID, TrackerPackets
+from rsoccer.bridge.tracker_packets import SOURCE_NAME, TrackerPackets
 from rsoccer.bridge.vision_packets import VisionPackets
 from rsoccer.protocols import tracker, vision
 from rsoccer.protocols.layout import WireLayout
@@ -58,9 +58,9 @@ def test_vision(arena: Arena, side: bool) -> None:
 def test_tracker(arena: Arena, side: bool) -> None:
     layout = WireLayout(arena.config, blue_on_positive_half=side)
     frame = arena.sense()
-    got = tracker_pb2.Packet.FromString(TrackerPackets(layout, 5.0).of(frame, 7, 2.0))
+    got = tracker_pb2.Packet.FromString(TrackerPackets(layout, 5.0, "one").of(frame, 7, 2.0))
     expected = tracker.to_packet(
-        layout, frame, frame_number=7, timestamp=7.0, uuid=UUID, source_name=SOURCE_NAME
+        layout, frame, frame_number=7, timestamp=7.0, uuid="one", source_name=SOURCE_NAME
     )
     assert len(got.tracked_frame.robots) == 21
     _assert_close(got, expected)

@@ -9,7 +9,8 @@ import pytest
 from rsoccer import cli
 from rsoccer.bridge.sockets import SocketLoop
 from rsoccer.commands.serve import ENDING, Serve
-from rsoccer.protocols.schemas import grsim_pb2
+from rsoccer.protocols.logs import LogKind, read_log
+from rsoccer.protocols.schemas import grsim_pb2, referee_pb2, tracker_pb2
 from rsoccer.replay import Replay
 from tests.bridge.ports import free_port
 
@@ -35,6 +36,21 @@ def test_a_match_is_served_and_recorded(
     assert f"{names[0]}: receives at 127.0.0.1:" in report
     assert "s were simulated" in report
     assert Replay.load(file).seconds > 0.1
+
+
+def test_each_server_has_an_identity_of_its_own(tmp_path: Path) -> None:
+    trackers, referees = set(), set()
+    for name in ("a.log", "b.log"):
+        words = ["serve", "ssl", "--seconds", "0.3", "--blue", "zero", "--yellow", "zero"]
+        words += ["--speed", "max", "--record", str(tmp_path / name), *ports(*SSL)]
+        assert cli.main(words) == 0
+        for entry in read_log(tmp_path / name):
+            if entry.kind == LogKind.TRACKER:
+                trackers.add(tracker_pb2.Packet.FromString(entry.data).uuid)
+            elif entry.kind == LogKind.REFEREE:
+                referees.add(referee_pb2.Packet.FromString(entry.data).source_identifier)
+    assert len(trackers) == 2
+    assert trackers == referees
 
 
 @pytest.mark.parametrize(

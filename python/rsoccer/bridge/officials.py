@@ -28,8 +28,6 @@ _WATCHED: Final = np.array(
 """Columns whose change is reported at once."""
 _IN_PLAY: Final = GAME_COLUMNS.index("in_play")
 _STEPS: Final = GAME_COLUMNS.index("command_steps")
-SOURCE: Final = "rSoccer-serve"
-"""Identity of the sender."""
 
 
 class Officials(ABC):
@@ -90,7 +88,9 @@ class GameController(Officials):
         )
         stamp = self._stamper.stamp(command, wire_time, again=again)
         try:
-            packet = referee.to_packet(session.layout, status, stamp, source_identifier=SOURCE)
+            packet = referee.to_packet(
+                session.layout, status, stamp, source_identifier=session.identity
+            )
         except MessageError:
             session.counts["referee: untold"] += 1
             return []

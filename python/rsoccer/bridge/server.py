@@ -13,7 +13,7 @@ from typing import Final
 from rsoccer import checks
 from rsoccer.bridge.awaited_answers import AwaitedAnswers
 from rsoccer.bridge.external_referee import ExternalReferee
-from rsoccer.bridge.session import Datagram, Session
+from rsoccer.bridge.session import IDENTITY, Datagram, Session
 from rsoccer.bridge.settings import Settings
 from rsoccer.bridge.ssl_ports import STATUS_PORTS, SslPorts
 from rsoccer.bridge.team import Address
@@ -43,6 +43,7 @@ class Server:
         settings: Settings | None = None,
         epoch: float = 0.0,
         status_ports: tuple[int, int] = STATUS_PORTS,
+        identity: str = IDENTITY,
     ) -> None:
         """Begin a match.
 
@@ -51,6 +52,8 @@ class Server:
             epoch: Unix time of the simulated time 0, s.
             status_ports: ports of clients to which grSim's status of blue and of yellow goes, 1 to
                 65535. VSSS has none.
+            identity: identity of tracker and referee, by which clients tell servers on one network
+                apart; `rsoccer serve` has a random one.
 
         Raises:
             TypeError: an unknown option of the match.
@@ -59,7 +62,7 @@ class Server:
         for name, port in zip(TEAM_NAMES, status_ports, strict=True):
             checks.integer_in_range(f"ports: status_{name}", port, 1, 65535)
         settings = Settings() if settings is None else settings
-        self.session = Session(settings, epoch)
+        self.session = Session(settings, epoch, identity)
         self.ports: SslPorts | VsssPorts
         if settings.league == "ssl":
             self.ports = SslPorts(self.session, status_ports)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ipaddress
 from collections import Counter
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -20,6 +20,9 @@ from rsoccer.bridge.team import Address, Team
 from rsoccer.protocols.layout import TEAMS, WireLayout
 from rsoccer.protocols.placing import Placement
 from rsoccer.tasks.match import Match
+
+IDENTITY: Final = "rSoccer-serve"
+"""Identity of a sender that has no other one."""
 
 
 class Datagram(NamedTuple):
@@ -44,18 +47,20 @@ class Session:
         stand_ins: policies for robots without a client.
         clock: the clock; None if the simulation goes on as fast as clients answer.
         epoch: time of the start, Unix time, s.
+        identity: identity of tracker and referee.
         recorders: recorders at work whose robots must stay the same.
         counts: numbers of messages by what became of them, such as "blue: received".
         is_own_host: whether a host is one of this machine beside the loopback; `SocketLoop` sets
             it, as nobody knows without a network.
     """
 
-    def __init__(self, settings: Settings, epoch: float = 0.0) -> None:
+    def __init__(self, settings: Settings, epoch: float = 0.0, identity: str = IDENTITY) -> None:
         """Begin a match.
 
         Args:
             settings: the settings.
             epoch: time of the start, Unix time, s: that of the simulated time 0.
+            identity: identity of tracker and referee.
 
         Raises:
             ValueError: an option of the match, or a policy that does not fit.
@@ -79,7 +84,7 @@ class Session:
             for team in TEAMS
         )
         self.clock = None if settings.speed is None else ScaledClock(settings.speed)
-        self.epoch = epoch
+        self.epoch, self.identity = epoch, identity
         self.recorders = 0
         self.counts: Counter[str] = Counter()
         self.is_own_host: Callable[[str], bool] = lambda host: False

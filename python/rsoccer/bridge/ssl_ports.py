@@ -64,7 +64,7 @@ class SslPorts:
         """Prepare packets for the robots as they are."""
         session = self._session
         self._vision = VisionPackets(session.layout, session.arena.sensing, session.epoch)
-        self._tracker = TrackerPackets(session.layout, session.epoch)
+        self._tracker = TrackerPackets(session.layout, session.epoch, session.identity)
         self._reader = ControlReader(session.layout)
 
     # -- What is sent ----------------------------------------------------------------------------

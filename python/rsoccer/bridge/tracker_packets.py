@@ -14,8 +14,6 @@ from rsoccer.game import BLUE
 from rsoccer.protocols.layout import WireLayout
 from rsoccer.protocols.schemas import tracker_pb2
 
-UUID: Final = "rSoccer-serve"
-"""Identity of the sender."""
 SOURCE_NAME: Final = "rSoccer"
 """Name of the sender."""
 _ABSENT: Final = ROBOT_COLUMNS.index("absent")
@@ -27,17 +25,18 @@ _FRAME: Final = tracker_pb2.Packet.TRACKED_FRAME_FIELD_NUMBER
 class TrackerPackets:
     """Makes the packets of the tracker of a match."""
 
-    def __init__(self, layout: WireLayout, epoch: float) -> None:
+    def __init__(self, layout: WireLayout, epoch: float, uuid: str) -> None:
         """Prepare what does not change.
 
         Args:
             layout: the match.
             epoch: time of the start of the simulation, Unix time, s.
+            uuid: identity of the sender.
         """
         self._layout, self._epoch = layout, epoch
         self._rows = MessageRows(layout.config.n_robots, 6, self._template)
         # `tracked_frame` is required: that of the packet is appended.
-        wrapper = tracker_pb2.Packet(uuid=UUID, source_name=SOURCE_NAME)
+        wrapper = tracker_pb2.Packet(uuid=uuid, source_name=SOURCE_NAME)
         self._wrapper = wrapper.SerializePartialToString()
 
     def _template(self, slot: int, numbers: Sequence[float]) -> tracker_pb2.TrackedFrame:

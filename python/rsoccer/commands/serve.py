@@ -6,6 +6,7 @@ import math
 import signal
 import sys
 import time
+import uuid
 from collections.abc import Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass, field
@@ -108,7 +109,8 @@ class Serve(Imports):
             network.ports.get(f"status_{name}", port)
             for name, port in zip(TEAM_NAMES, STATUS_PORTS, strict=True)
         )
-        server = Server(settings, time.time(), (status_blue, status_yellow))
+        ports = status_blue, status_yellow
+        server = Server(settings, time.time(), ports, identity=str(uuid.uuid4()))
         for name, number in network.ports.items():
             if number == 0 and name not in server.inputs:
                 raise ValueError(f"ports: expected 1 to 65535 for {name}, which is sent, got 0")
