@@ -470,6 +470,8 @@ def test_as_fast_as_clients_answer() -> None:
     wall.team(local_velocity([0]))
     wall.now += 0.2
     assert wall.server.advance(wall.now), "play goes on without the silent one"
+    assert wall.server.session.counts["yellow: left"] == 1
+    assert wall.server.session.counts["blue: left"] == 0
     message = simulation_pb2.Command()
     message.control.simulation_speed = 2.0
     assert wall.control(message) == ["UNSUPPORTED_SPEED"]

@@ -201,7 +201,7 @@ class Server:
         """Whether a client has not answered the last frame, or has not come yet."""
         session = self.session
         for team in session.teams:
-            team.expire(now)
+            session.release_silent(team, now)
             self._has_had[team.index] |= team.address is not None
         if not self._waits:
             return False

@@ -220,6 +220,7 @@ class SslPorts:
             return []
         index = YELLOW if message.commands.isteamyellow else BLUE
         team = session.teams[index]
+        session.release_silent(team, now)
         if not team.accept(address, now):
             session.counts["grsim: team taken"] += 1
             return []

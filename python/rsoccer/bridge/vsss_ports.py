@@ -97,6 +97,7 @@ class VsssPorts:
             if bool(index) not in named:
                 continue
             team = session.teams[index]
+            session.release_silent(team, now)
             if not team.accept(address, now):
                 session.counts[f"command: {TEAM_NAMES[index]} taken"] += 1
                 continue
