@@ -9,9 +9,10 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
+from rsoccer.bridge.server import MAX_SIZES
 from rsoccer.bridge.session import Datagram
 from rsoccer.protocols.errors import MAX_PROBLEMS
-from rsoccer.protocols.parsing import MAX_ROBOTS, MAX_SIZE
+from rsoccer.protocols.parsing import MAX_EVENTS, MAX_ROBOTS, MAX_SIZE
 from rsoccer.protocols.schemas import (
     fira_pb2,
     grsim_pb2,
@@ -19,6 +20,7 @@ from rsoccer.protocols.schemas import (
     vssref_pb2,
 )
 from tests.bridge.clients import OTHER, YELLOW, Wall, local_velocity
+from tests.bridge.test_server import referee_packet
 from tests.bridge.test_vsss import wheels
 
 PACKETS = int(
@@ -176,3 +178,45 @@ def test_endless_lists_are_not_read() -> None:
     assert len(known) < MAX_SIZE
     assert [error.code for error in wall.team(known).errors] == ["TOO_LARGE"]
     assert not wall.server.session.commands.any()
+
+
+@pytest.mark.parametrize("league", ["ssl", "vsss"])
+def test_messages_that_no_client_sends_are_refused_before_they_are_read(league: str) -> None:
+    wall = Wall(league=league, referee="external")
+    counts = wall.server.session.counts
+    for port in wall.server.inputs:
+        most = MAX_SIZES[port]
+        for size, words in ((most, "expected a"), (most + 1, f"expected at most {most} bytes")):
+            answers = wall.send(port, bytes(size))  # zeros are no message of any kind
+            assert len(answers) == (port in ("blue", "yellow", "control"))
+            for answer in answers:
+                # Both kinds of answers have their errors in the same field.
+                (error,) = simulation_pb2.Response.FromString(answer.data).errors
+                assert words in error.message
+        assert counts[f"{port}: unreadable"] == 2
+
+
+def test_messages_with_all_fields_of_all_robots_have_room() -> None:
+    for port, messages in long_lists(MAX_ROBOTS).items():
+        assert max(map(len, messages)) < MAX_SIZES[port]
+    message = simulation_pb2.RobotControl()
+    for _ in range(MAX_ROBOTS):
+        command = message.robot_commands.add(id=2**31, kick_speed=1.0, kick_angle=1.0)
+        command.dribbler_speed = 1.0
+        wheels = command.move_command.wheel_velocity
+        wheels.front_right = wheels.back_right = wheels.back_left = wheels.front_left = 1.0
+    assert len(message.SerializeToString()) < MAX_SIZES["blue"]
+
+
+def test_endless_lists_of_events_are_refused_by_their_name() -> None:
+    wall = Wall(referee="external")
+    packet = referee_packet()
+    for _ in range(MAX_EVENTS + 1):
+        packet.game_events.add()
+    assert len(packet.SerializeToString()) < MAX_SIZES["referee"]
+    assert wall.send("referee", packet.SerializeToString()) == []
+    counts = wall.server.session.counts
+    assert counts["referee: unreadable"] == 1
+    del packet.game_events[0]
+    wall.send("referee", packet.SerializeToString())
+    assert counts["referee: unreadable"] == 1

@@ -18,13 +18,20 @@ from rsoccer.bridge.settings import Settings
 from rsoccer.bridge.ssl_ports import STATUS_PORTS, SslPorts
 from rsoccer.bridge.team import Address
 from rsoccer.bridge.vsss_ports import VsssPorts
-from rsoccer.protocols.errors import MessageError
+from rsoccer.protocols.errors import Code, MessageError
 from rsoccer.protocols.layout import TEAM_NAMES
 
 MAX_TICKS: Final = 50
 """Ticks in one call, so that messages are read in between."""
 MAX_HEARD: Final = 1000
 """Packets of a referee on the network that are kept for the listeners between two ticks."""
+
+MAX_SIZES: Final = {
+    **{"blue": 8192, "yellow": 8192, "control": 16384, "grsim": 16384},
+    **{"command": 16384, "replacer": 16384, "referee": 16384},
+}
+"""Greatest length of a message by the port, in bytes: more than `MAX_ROBOTS` robots with all fields
+need. A datagram may have 65507, which take longer to read than a tick."""
 
 
 class Server:
@@ -106,6 +113,7 @@ class Server:
             return []
         answered = [] if self.session.clock else self._awaited.before_message()
         try:
+            _check_size(port, data)
             if port == "referee" and self._referee is not None:
                 self._referee.receive(data)
                 if self.listeners:
@@ -217,3 +225,13 @@ class Server:
             # Policies play on by themselves; without them, nobody is there.
             self._waits = not any(session.stand_ins.plays(team.index) for team in session.teams)
         return self._waits
+
+
+def _check_size(port: str, data: bytes) -> None:
+    """Refuse a message that no client sends, before it is read."""
+    if len(data) > MAX_SIZES[port]:
+        raise MessageError(
+            Code.TOO_LARGE,
+            f"message: expected at most {MAX_SIZES[port]} bytes at the port {port}, "
+            f"got {len(data)}",
+        )

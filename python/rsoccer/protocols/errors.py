@@ -13,7 +13,7 @@ class Code(StrEnum):
     UNREADABLE = "UNREADABLE"
     """The bytes are no message of the kind, are cut off, or lack a required field."""
     TOO_LARGE = "TOO_LARGE"
-    """The message is longer than a datagram can be, or has more robots than any match."""
+    """The message is longer than its port takes, or has more robots or events than any match."""
     NOT_FINITE = "NOT_FINITE"
     """A number is NaN or infinite, or too large for the simulator."""
     OUT_OF_RANGE = "OUT_OF_RANGE"

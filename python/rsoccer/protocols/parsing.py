@@ -19,6 +19,9 @@ MAX_ROBOTS: Final = 128
 """Greatest number of robots that a message commands, puts or describes: four times the 32 that the
 protocols can tell apart. A datagram has room for 16,000, which take longer to read than a tick."""
 
+MAX_EVENTS: Final = 256
+"""Greatest number of events of a match in a message: referees list those since play stopped."""
+
 LABEL_REPEATED: Final = 3
 """Label of a field with a list of values."""
 
@@ -26,6 +29,12 @@ _M = TypeVar("_M", bound=Message)
 _FLOATS: Final = (FieldDescriptor.TYPE_FLOAT, FieldDescriptor.TYPE_DOUBLE)
 _ROBOTS: Final = frozenset({"robot_commands", "teleport_robot", "robot_specs", "robots"})
 """Fields with a list of robots."""
+_MOST: Final = {
+    **dict.fromkeys(_ROBOTS, (MAX_ROBOTS, "robots")),
+    "game_events": (MAX_EVENTS, "events"),
+    "game_event_proposals": (MAX_EVENTS, "groups of events"),
+}
+"""Greatest number of entries of lists, and words for them."""
 _TIMES: Final = frozenset(
     {
         *("t_capture", "t_sent", "t_capture_camera"),
@@ -44,7 +53,8 @@ def parse(kind: type[_M], data: bytes) -> _M:
 
     Returns:
         A message with all required fields whose numbers are finite and below `MAX_MAGNITUDE`;
-        time stamps only finite. Its lists of robots have at most `MAX_ROBOTS` entries.
+        time stamps only finite. Its lists of robots have at most `MAX_ROBOTS` entries, those of
+        events `MAX_EVENTS`.
 
     Raises:
         MessageError: anything else. No other error is raised, whatever the bytes are.
@@ -75,7 +85,7 @@ def check_finite(message: Message) -> None:
 
     Raises:
         MessageError: a number is NaN, infinite, or beyond `MAX_MAGNITUDE`; or a list of robots has
-            more than `MAX_ROBOTS` entries.
+            more than `MAX_ROBOTS` entries, or one of events more than `MAX_EVENTS`.
     """
     check = _checker(message.DESCRIPTOR)
     if check is not None:
@@ -101,11 +111,17 @@ def _checker(kind: Descriptor) -> Callable[[Message], None] | None:
     return _check if _has_floats(kind) else None
 
 
+def _check_length(name: str, length: int) -> None:
+    most, words = _MOST[name]
+    if length > most:
+        text = f"{name}: expected at most {most} {words}, got {length}"
+        raise MessageError(Code.TOO_LARGE, text)
+
+
 def _check(message: Message) -> None:
     for field, value in message.ListFields():
-        if field.name in _ROBOTS and is_repeated(field) and len(value) > MAX_ROBOTS:
-            text = f"{field.name}: expected at most {MAX_ROBOTS} robots, got {len(value)}"
-            raise MessageError(Code.TOO_LARGE, text)
+        if field.name in _MOST and is_repeated(field):
+            _check_length(field.name, len(value))
         if field.type in _FLOATS:
             limit = math.inf if field.name in _TIMES else MAX_MAGNITUDE
             for number in value if is_repeated(field) else (value,):
