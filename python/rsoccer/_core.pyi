@@ -904,7 +904,7 @@ class Sensing:
 
     @property
     def battery_sag(self) -> float:
-        """Part of top and kick speeds that batteries lose a second, down to half (1/s, 0 or above)."""
+        """Part of top and kick speeds lost in a second, down to half (1/s, 0 or above)."""
 
     @property
     def forecast(self) -> float:

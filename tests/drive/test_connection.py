@@ -373,8 +373,10 @@ def test_halt_stops_at_once_and_stop_is_slow() -> None:
     assert speeds(link.messages)[-1] == pytest.approx(3.0)
 
 
-@pytest.mark.parametrize(("division", "told"), [("A", 1), ("B", 0)])
-def test_another_field_is_told_once_as_soon_as_vision_tells_it(division: str, told: int) -> None:
+@pytest.mark.parametrize(("division", "reported"), [("A", 1), ("B", 0)])
+def test_another_field_is_reported_once_as_soon_as_vision_has_it(
+    division: str, reported: int
+) -> None:
     link = ServerLink(referee="off", division=division)
     connection = connected(SimConfig("ssl_b", 1, 0), link, "ssl-simulation", ids=(5,))
     events: list[str] = []
@@ -386,7 +388,7 @@ def test_another_field_is_told_once_as_soon_as_vision_tells_it(division: str, to
     assert not events
     for _ in range(30):
         connection.advance(np.zeros((1, 7), np.float32), connection.sight.clock.now + 0.1)
-    assert events == told * ["field: the task's is 9 x 6 m, that of vision 12 x 9 m"]
+    assert events == reported * ["field: the task's is 9 x 6 m, that of vision 12 x 9 m"]
 
 
 def test_a_required_referee_is_awaited() -> None:

@@ -98,7 +98,7 @@ numbers! {
         kick_failures: Fraction, "1";
         /// Probability that a dribbler does not obey a command.
         dribbler_failures: Fraction, "1";
-        /// Part of top and kick speeds that batteries lose a second, down to half.
+        /// Part of top and kick speeds lost in a second, down to half.
         battery_sag: NotNegative, "1/s";
         /// 1 to know the state in which the next commands act, by a forecast.
         #[serde(default)]
