@@ -374,7 +374,7 @@ def test_halt_stops_at_once_and_stop_is_slow() -> None:
 
 
 @pytest.mark.parametrize(("division", "reported"), [("A", 1), ("B", 0)])
-def test_another_field_is_reported_once_as_soon_as_vision_has_it(
+def test_another_field_is_reported_once_it_is_known(
     division: str, reported: int
 ) -> None:
     link = ServerLink(referee="off", division=division)
