@@ -120,10 +120,27 @@ def test_a_match_without_a_referee_goes_on_by_the_rules_of_the_task() -> None:
 def test_a_match_waits_for_a_referee_that_is_required() -> None:
     link = ServerLink(robots=2, referee="off")
     session = session_of(link, "SSLMatch-v0", "ssl-simulation", referee="require")
+    events: list[str] = []
+    session.connection.on_event.append(events.append)
     session.begin()
+    (said,) = events
+    assert said.startswith("referee: none heard at 224.5.23.1:10003 so far; robots stand until")
     command = int(session.matches.play.game.command[0])
     for _ in range(400):
         session.step()
     assert int(session.matches.play.game.command[0]) == command
     assert not session.matches.play.game.may_touch[0].any()
+    session.close()
+
+
+@pytest.mark.parametrize("is_heard", [False, True])
+def test_a_required_referee_that_is_not_heard_is_named_in_any_task(is_heard: bool) -> None:
+    link = ServerLink(robots=1, referee="off")
+    session = session_of(link, "SSLGoToBall-v0", "ssl-simulation", "best", referee="require")
+    events: list[str] = []
+    session.connection.on_event.append(events.append)
+    if is_heard:
+        link.give("referee", packet_of(session, Command.HALT))
+    session.begin()
+    assert any("none heard at" in each for each in events) is not is_heard
     session.close()

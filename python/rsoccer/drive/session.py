@@ -132,8 +132,13 @@ class Session:
             RuntimeError: the simulator refuses all commands, or the guard has ended.
         """
         self.matches.reset()
-        officials = self.connection.officials
-        if officials.is_awaited and isinstance(self.matches.task, Match):
+        officials, settings = self.connection.officials, self.connection.settings
+        if not officials.packets and settings.referee == "require":
+            place = f"{settings.group_hosts['referee']}:{settings.port_numbers['referee']}"
+            self.connection.tell(
+                f"referee: none heard at {place} so far; robots stand until one is"
+            )
+        elif officials.is_awaited and isinstance(self.matches.task, Match):
             self.connection.tell(
                 "referee: none heard so far; the rules of the task hold until then"
             )
