@@ -90,7 +90,7 @@ def make_match(league: str, division: str, robots: int | None, options: Mapping[
 
 def _check_names(task_class: type[Match], options: Mapping[str, Any]) -> None:
     """Refuse options that the task does not have, or that `make_match` sets."""
-    settled = ("n_blue", "n_yellow", "field", "division")
+    settled = ("n_blue", "n_yellow", "field", "division", "max_steps")
     valid = [name for name in list_options(task_class) if name not in settled]
     unknown = sorted(set(options) - set(valid))
     if unknown:

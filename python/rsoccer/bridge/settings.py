@@ -42,11 +42,13 @@ OWN_OPTIONS: Final[Mapping[str, Mapping[str, str]]] = {
         "division": "the argument `division` for it",
         "n_blue": "`robots` for the size of both teams",
         "n_yellow": "`robots` for the size of both teams",
+        "max_steps": "`half_seconds` for the length of a match",
     },
     "vsss": {
         "field": "`robots`, by which the field follows",
         "n_blue": "`robots` for the size of both teams",
         "n_yellow": "`robots` for the size of both teams",
+        "max_steps": "`half_seconds` for the length of a match",
     },
 }
 """Options of the match tasks that a server sets itself, by league, and what to give instead."""

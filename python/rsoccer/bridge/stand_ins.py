@@ -9,7 +9,7 @@ import numpy as np
 
 from rsoccer.arrays import Floats
 from rsoccer.bridge.match_tasks import TICK
-from rsoccer.controllers import Controllers, assign
+from rsoccer.controllers import Assignment, Controllers, assign
 from rsoccer.matches import result_checks
 from rsoccer.matches.sensing import forecasting_teams
 from rsoccer.play import Play
@@ -52,7 +52,7 @@ class StandIns:
             team: NOBODY_PLAYS if name is None else name
             for team, name in zip(TEAM_NAMES, given, strict=True)
         }
-        assignment = assign(task, controllers, 1, by_team=True)  # each may forecast
+        assignment = _assign(task, controllers)
         self.observers: list[int] = assignment.observers.tolist()
         self.forecasting = forecasting_teams(task, assignment, None, together=False)
         self._plays = tuple(name is not None for name in given)
@@ -113,3 +113,17 @@ class StandIns:
     def commands(self) -> Floats:
         """(robots, command) commands of the last call of `act`."""
         return self._commands
+
+
+def _assign(task: Match, controllers: Controllers) -> Assignment:
+    """Robots of the policies; an error names the team whose policy is refused."""
+    try:
+        return assign(task, controllers, 1, by_team=True)  # each may forecast
+    except ValueError:
+        for team, policy in controllers.items():
+            alone: Controllers = {**dict.fromkeys(TEAM_NAMES, NOBODY_PLAYS), team: policy}
+            try:
+                assign(task, alone, 1, by_team=True)
+            except ValueError as error:
+                raise ValueError(f"{team}: {error}") from error
+        raise
