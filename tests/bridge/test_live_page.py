@@ -12,6 +12,7 @@ import pytest
 
 from rsoccer.protocols.schemas import simulation_pb2
 from tests.bridge.clients import Wall
+from tests.bridge.test_server import referee_packet
 
 pytest.importorskip("websockets")
 
@@ -20,7 +21,7 @@ from websockets.sync.client import connect
 from websockets.typing import Origin
 
 from rsoccer.bridge import live_page
-from rsoccer.bridge.live_page import FRAMES, LivePage
+from rsoccer.bridge.live_page import FRAMES, LivePage, frame_of
 
 PATIENCE = 60.0
 """Longest wait for a frame, s: for machines that are busy."""
@@ -117,3 +118,17 @@ def test_the_page_shows_robots_that_were_exchanged() -> None:
 )
 def test_no_minute_has_sixty_seconds(seconds: float, text: str) -> None:
     assert live_page._clock(seconds) == text
+
+
+def test_a_referee_on_the_network_is_shown_from_its_first_packet_on() -> None:
+    wall = Wall(referee="external")
+    wall.tick(2)
+    shown = frame_of(wall.server)
+    assert (shown["stage"], shown["command"]) == ("", "No referee is heard")
+    wall.send("referee", b"\xff")
+    assert frame_of(wall.server)["command"] == "No referee is heard"
+    wall.send("referee", referee_packet().SerializeToString())
+    wall.tick(2)
+    shown = frame_of(wall.server)
+    assert shown["stage"]
+    assert shown["command"] == "Free kick Blue"

@@ -28,6 +28,11 @@ class ExternalReferee:
         self._reported = ReportedReferee(session.arena.rule.rules)
         session.stand_ins.restrain = self._restrain
 
+    @property
+    def is_heard(self) -> bool:
+        """True once a packet with a command has come."""
+        return self._reported.state.command is not None
+
     def receive(self, data: bytes) -> None:
         """Take in a packet.
 

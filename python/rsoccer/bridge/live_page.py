@@ -201,7 +201,9 @@ def frame_of(server: Server) -> dict[str, Any]:
         ),
     }
     numbers = referee_row(arena.task, arena.play)
-    if numbers is not None and session.settings.referee != "off":
+    if server.awaits_referee:
+        frame["command"] = "No referee is heard"
+    elif numbers is not None and session.settings.referee != "off":
         state = RefereeState.of_row(numbers, TICK)
         frame["stage"], frame["command"] = stage_text(state), command_words(state).text
         if has_clock(state):

@@ -94,6 +94,11 @@ class Server:
         """Names of the ports that receive what is sent to a group."""
         return tuple(name for name in self.inputs if name in ("referee", "replacer"))
 
+    @property
+    def awaits_referee(self) -> bool:
+        """True until the first packet of a referee on the network, if there is to be one."""
+        return self._referee is not None and not self._referee.is_heard
+
     def receive(self, port: str, data: bytes, address: Address, now: float) -> list[Datagram]:
         """Take in a datagram.
 
