@@ -374,9 +374,7 @@ def test_halt_stops_at_once_and_stop_is_slow() -> None:
 
 
 @pytest.mark.parametrize(("division", "reported"), [("A", 1), ("B", 0)])
-def test_another_field_is_reported_once_it_is_known(
-    division: str, reported: int
-) -> None:
+def test_another_field_is_reported_once_it_is_known(division: str, reported: int) -> None:
     link = ServerLink(referee="off", division=division)
     connection = connected(SimConfig("ssl_b", 1, 0), link, "ssl-simulation", ids=(5,))
     events: list[str] = []
