@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import pytest
 
 import rsoccer
-from rsoccer.lineup import learning_team, opponents_of
+from rsoccer.lineup import learning_team, opponents_of, script_of
 from rsoccer.task import Learn
 from rsoccer.tasks import VssSelfPlay
 
@@ -22,6 +22,21 @@ from rsoccer.tasks import VssSelfPlay
 )
 def test_one_team_learns_in_training(task: str, expected: tuple[str, ...]) -> None:
     assert learning_team(rsoccer.make_task(task)) == expected
+
+
+@pytest.mark.parametrize(
+    ("task", "script"),
+    [
+        ("SSLPassEndurance-v1", "passer"),
+        ("SSLPassEnduranceMulti-v1", "passer"),
+        ("SSLKeepaway-v0", "keep"),
+        ("SSLMatch-v0", "scripted"),
+        ("VSS-v0", "scripted"),
+        ("SSLGoToBall-v0", "strike"),
+    ],
+)
+def test_the_script_of_a_task_is_its_reference(task: str, script: str) -> None:
+    assert script_of(rsoccer.make_task(task)) == script
 
 
 def test_a_task_needs_a_robot_that_learns() -> None:

@@ -21,8 +21,10 @@ SCRIPTS: Final = {"differential": "scripted", "omni": "strike"}
 """Scripts that play in the place of learners, by the drive of the robots."""
 MATCH_SCRIPT: Final = "scripted"
 """Script of whole matches, which obeys the referee."""
+PASS_SCRIPT: Final = "passer"
+"""Script of the pass tasks."""
 KEEPER_SCRIPT: Final = "keep"
-"""Script of tasks in which a team keeps the ball."""
+"""Script of the team that keeps the ball in `SSLKeepaway-v0`."""
 TAKER_SCRIPT: Final = "take"
 """Script of the other team there."""
 
@@ -38,7 +40,7 @@ def script_of(task: Task, team: str | None = None) -> str:
         takes = task.learners == "takers" if team is None else team == SIDES[1]
         return TAKER_SCRIPT if takes else KEEPER_SCRIPT
     if isinstance(task, SslPass):
-        return KEEPER_SCRIPT
+        return PASS_SCRIPT
     return MATCH_SCRIPT if isinstance(task, Match) else SCRIPTS[task.config.robots[0].drive]
 
 

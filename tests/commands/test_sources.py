@@ -15,7 +15,7 @@ WORDS = {
     "evaluate": ["evaluate", "chase", "--opponents", "zero", "--matches", "2"],
     "tournament": ["tournament", "chase", "zero", "--matches", "2"],
     "watch": ["watch", "chase", "--opponents", "zero", "--seconds", "0.5"],
-    "play": ["play", "VSSSelfPlay-v0", "--seconds", "0", "--width", "128"],
+    "play": ["play", "VSSSelfPlay-v0", "--seconds", "0.01", "--width", "128"],
 }
 FILES = {"evaluate --save": ("evaluate", "--save", "match.rsr")}
 FILES["watch --save"] = ("watch", "--save", "match.rsr")

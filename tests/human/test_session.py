@@ -185,6 +185,13 @@ def test_a_window_that_loses_the_focus_releases_all_keys() -> None:
     assert devices.controls() == Controls()
 
 
+@pytest.mark.parametrize("seconds", [0.0, -1.0, float("nan")])
+def test_a_duration_that_is_not_positive_is_refused(seconds: float) -> None:
+    session = session_of()
+    with pytest.raises(ValueError, match=f"seconds: expected a positive number, got {seconds}"):
+        session.run(seconds)
+
+
 def test_a_closed_window_ends_the_session() -> None:
     session = session_of()
     session.window.show(session.image())

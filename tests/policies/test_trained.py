@@ -137,6 +137,17 @@ def test_best_plays_whole_matches_with_the_skills_of_another_task(options: dict[
     assert policy.shield is not None
 
 
+@pytest.mark.parametrize("name", ["VSS-v0", "VSSMulti-v0"])
+def test_files_of_single_agents_play_in_matches(name: str, tmp_path: Path) -> None:
+    path = tmp_path / "a.safetensors"
+    policies.make_policy("best", rsoccer.make_task(name)).save(path)  # type: ignore[attr-defined]
+    match = rsoccer.make_task("VSSMatch-v0", half_seconds=5.0)
+    policy = policies.make_policy(path, match)
+    assert isinstance(policy, Network)
+    assert (policy.observation_size, policy.action_size) == (match.layout.size, 2)
+    assert rsoccer.evaluate(path, "zero", 2, task=match, threads=1).matches == 2
+
+
 def test_files_with_the_skills_of_a_match_play_it(tmp_path: Path) -> None:
     source = rsoccer.make_task("VSSSelfPlay-v0")
     policies.make_policy("best", source).save(tmp_path / "a.safetensors")  # type: ignore[attr-defined]

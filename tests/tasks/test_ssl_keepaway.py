@@ -183,6 +183,11 @@ def test_wrong_options_are_named(options: dict[str, Any], message: str) -> None:
         SslKeepaway(**options)
 
 
+def test_an_opponent_without_a_name_is_refused() -> None:
+    with pytest.raises(ValueError, match="unknown policy ''"):
+        Matches(SslKeepaway(opponent=""))
+
+
 def test_skill_of_the_takers_is_their_speed() -> None:
     task = SslKeepaway()
     start = scene(task, ball=(-2.0, 0.0), blue_0=(2.0, 2.0), **{**AWAY, "yellow_0": (1.0, 0.0)})

@@ -147,7 +147,10 @@ class Session:
 
         Raises:
             RuntimeError: there is no display.
+            ValueError: `seconds` is not above 0.
         """
+        if not seconds > 0.0:
+            raise ValueError(f"seconds: expected a positive number, got {seconds}")
         time_step = self.matches.task.config.time_step
         shown = 0.0
         while shown < seconds and self.window.show(self.image()):

@@ -170,7 +170,8 @@ class SslKeepaway(Ssl):
 
     def default_controllers(self) -> dict[str, str | Learn]:
         """Return `LEARN` for the robots of the option `learners`, and a policy for the others."""
-        other: str | Learn = self.opponent or SCRIPTS.get(self.learners) or LEARN
+        own = self.opponent
+        other: str | Learn = SCRIPTS.get(self.learners, LEARN) if own is None else own
         keepers = other if self.learners == "takers" else LEARN
         takers = other if self.learners == "keepers" else LEARN
         controllers: dict[str, str | Learn] = {}

@@ -64,6 +64,19 @@ def test_a_run_that_overwrites_another_equals_a_new_one(finished: Path, tmp_path
     assert progress(tmp_path) == progress(finished)
 
 
+@pytest.mark.parametrize("content", [None, "{", "{}"])
+def test_the_error_says_that_the_settings_of_a_run_are_lost(
+    content: str | None, finished: Path, tmp_path: Path
+) -> None:
+    shutil.copytree(finished, tmp_path, dirs_exist_ok=True)
+    settings = tmp_path / "args.json"
+    settings.unlink()
+    if content is not None:
+        settings.write_text(content)
+    with pytest.raises(ValueError, match=r"other settings: .*args.json beside it is missing or"):
+        train(tiny(tmp_path, resume=True, seed=9))
+
+
 def test_another_policy_at_the_same_path_is_refused(tmp_path: Path) -> None:
     opponent, task = tmp_path / "opponent.safetensors", make_task(NAME)
     network_for(task).save(opponent)

@@ -175,8 +175,14 @@ def test_the_first_policy_plays_the_initial_action(tmp_path: Path) -> None:
     assert np.abs(actions - np.array([0.5, -0.25], np.float32)).max() < 0.1
 
 
+def test_components_without_a_number_begin_at_0(tmp_path: Path) -> None:
+    trainer = Trainer(tiny(tmp_path, initial_action=(0.5,)))
+    actions = trainer.network().mean_actions(trainer.collector.observations)
+    assert np.abs(actions - np.array([0.5, 0.0], np.float32)).max() < 0.1
+
+
 def test_an_initial_action_of_another_size_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(ValueError, match=r"initial_action must have 2 numbers.*got 3"):
+    with pytest.raises(ValueError, match=r"initial_action must have at most 2 numbers.*got 3"):
         train(tiny(tmp_path / "run", initial_action=(0.0, 0.0, 0.0)))
     assert not (tmp_path / "run" / "args.json").exists()
 

@@ -34,8 +34,9 @@ TEAM_TASK: Final = "VSSMulti-v0"
 
 These are tasks derived from `VSSSelfPlay-v0`, in which whole teams play.
 """
-SKILLS: Final = {"VSSMatch-v0": "VSSSelfPlay-v0"}
-"""Tasks that the policies of another task play, see `rsoccer.policies.other_task`.
+SKILLS: Final = {"VSSMatch-v0": ("VSSSelfPlay-v0", "VSSMulti-v0", "VSS-v0")}
+"""Tasks that the policies of other tasks play, see `rsoccer.policies.other_task`; `best` is that of
+the first.
 
 Trainings of 5 to 8 million samples in matches that began with it made it worse
 (docs/learning-tried.md); the shield of its file is what it needs there.
@@ -139,7 +140,7 @@ def _best_file(task: Task, variant: str | None) -> tuple[str, Path]:
         if against is not None:
             return name, against
     files = list_trained(variant)
-    source = known_as if known_as in files else SKILLS.get(known_as)
+    source = known_as if known_as in files else next(iter(SKILLS.get(known_as, ())), None)
     if source in files:
         return name, files[source]
     names = list(files)
@@ -228,7 +229,7 @@ def with_skills(network: Network, task: Task) -> Network:
     Raises:
         ValueError: a policy with other observations than those of its task.
     """
-    has_skills = SKILLS.get(nearest_name(task)) == network.task_name
+    has_skills = network.task_name in SKILLS.get(nearest_name(task), ())
     return fitted(network, task) if has_skills else network
 
 

@@ -81,18 +81,19 @@ class ActorCritic(nn.Module):
         """Set the biases of the policy's last layer, which are the mean action before training.
 
         Args:
-            action: one number per component of the action.
+            action: numbers of the first components of the action; those of the others are 0.
 
         Raises:
-            ValueError: another number of components.
+            ValueError: more numbers than components.
         """
         *_, bias = self.actor.parameters()
-        if len(action) != len(bias):
+        if len(action) > len(bias):
             raise ValueError(
-                f"network.initial_action must have {len(bias)} numbers, one per component of the "
-                f"action, got {len(action)}"
+                f"network.initial_action must have at most {len(bias)} numbers, one per component "
+                f"of the action, got {len(action)}"
             )
-        bias.copy_(torch.tensor(action))
+        bias.zero_()
+        bias[: len(action)] = torch.tensor(action)
 
     @torch.no_grad()
     def set_action_std(self, action_std: float) -> None:

@@ -28,7 +28,7 @@ class NetworkSettings:
     final_action_std: Positive = 0.1
     """standard deviation of actions at the end of the run"""
     initial_action: tuple[Signed, ...] = ()
-    """mean action at first, from -1 to 1; empty is 0"""
+    """mean action at first, from -1 to 1; 0 for components without a number"""
     masked_observations: tuple[str, ...] = ()
     """blocks read as 0 in ablations, as in shot opponents:2,3"""
     initial_policy: str | None = None

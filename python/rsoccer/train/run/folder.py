@@ -111,13 +111,24 @@ def digests_of(task: Task, policies: Iterable[str]) -> dict[str, str]:
 def _check_same(args: Args, policy_files: dict[str, str], path: Path, info: dict[str, Any]) -> None:
     """Raise ValueError unless a checkpoint is of the same settings and policies."""
     if changed := args.differences(info["args"]):
-        raise ValueError(f"{path} is of a run with other settings: {'; '.join(changed)}")
+        reason = f"{path} is of a run with other settings: {'; '.join(changed)}"
+        if not _has_settings(path.parent):
+            reason += f". {SETTINGS_FILE} beside it is missing or damaged: give the run's settings"
+        raise ValueError(reason)
     before = info.get("policy_files", policy_files)
     if changed := [name for name, digest in policy_files.items() if before.get(name) != digest]:
         raise ValueError(
             f"{path} is of a run with other policies: the content of {', '.join(changed)} has "
             "changed since it began"
         )
+
+
+def _has_settings(folder: Path) -> bool:
+    """Whether the file of settings in a folder can be read."""
+    try:
+        return bool(json.loads((folder / SETTINGS_FILE).read_bytes()))
+    except (OSError, ValueError):
+        return False
 
 
 def check_empty(folder: Path, settings: str = "resume, overwrite") -> None:
