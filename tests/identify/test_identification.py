@@ -127,6 +127,17 @@ def test_one_wheel_that_reaches_its_top_speed_by_a_little() -> None:
     assert found.misfit == pytest.approx(1.0, abs=0.1)
 
 
+@pytest.mark.parametrize(("robot", "seed"), [(SSL, 0), (VSS, 1)])
+def test_lost_commands_do_not_change_the_latency(robot: RobotModel, seed: int) -> None:
+    """A lost command delays a step by a frame, which shifts a fit of all windows."""
+    senses = Sensing("rc2021", delay=0.05, command_delay=0.02, command_loss=0.08)
+    log = record(robot, sensing=senses, excitation=program(robot), seed=seed)
+    latency = identify(log, robot).estimate("latency")
+    assert latency.value == pytest.approx(0.07, abs=0.0003)
+    assert latency.low < 0.07 < latency.high
+    assert latency.high - latency.low < 0.001
+
+
 def test_the_file_names_each_model(ssl: Identified, tmp_path: Path) -> None:
     path = str(ssl.save(tmp_path / "model.json"))
     assert RobotModel(path).max_acceleration == pytest.approx(ssl.robot.max_acceleration, rel=1e-5)

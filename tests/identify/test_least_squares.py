@@ -65,6 +65,28 @@ def test_intervals_hold_the_truth_about_as_often_as_they_say(blocks: int, scatte
     assert (held / runs <= 0.995).all() or blocks < 10, held
 
 
+def test_intervals_hold_the_truth_with_few_blocks_for_many_parameters() -> None:
+    """A fit follows the errors of each block, so what is left of them is too small."""
+    blocks, size, runs = 20, 14, 100
+    held = 0.0
+    free = np.ones(size, np.bool_)
+    for seed in range(runs):
+        rng = np.random.default_rng(seed)
+        slopes = 0.3 * rng.normal(size=(blocks, 20, size)) + rng.normal(size=(blocks, 1, size))
+        seen = rng.normal(size=(blocks, 20)) + 2.0 * rng.normal(size=(blocks, 1))
+
+        def residuals(
+            parameters: Doubles, slopes: Doubles = slopes, seen: Doubles = seen
+        ) -> Doubles:
+            misfit: Doubles = seen - slopes @ parameters
+            return misfit
+
+        found = solve(residuals, np.zeros(size), np.full(size, 0.01), free)
+        low, high = found.intervals(free, rng)
+        held += float(((low <= 0.0) & (high >= 0.0)).mean())
+    assert held / runs >= 0.88
+
+
 def test_student() -> None:
     assert student(np.inf) == pytest.approx(1.96)
     assert student(1) == pytest.approx(12.706)

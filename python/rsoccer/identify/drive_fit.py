@@ -26,6 +26,9 @@ _REACH: Final = 0.08  # s beyond a latency, within which it is fitted
 _BEYOND: Final = 1.05  # of a top speed, which commands exceed where it shows
 _WORSE: Final = 1.05  # of the misfit, by which a top speed that hardly shows is missed
 _BEYOND_TIME: Final = 0.2  # s
+_ODD: Final = 4.0  # standard deviations of windows' misfits, beyond which one is left out
+_LEAST_ODD: Final = 1.2  # of the usual misfit, up to which none is
+_PASSES: Final = 3  # in which windows are left out
 
 
 class DriveFit:
@@ -57,6 +60,7 @@ class DriveFit:
         # Velocities at the starts of windows depend on the latency.
         self._cut(float(self.solution.parameters[0]))
         self.solution = self._solved(self.windows, self.solution.parameters)
+        self._leave_out()
         tops = np.array([name in self.drive.tops() for name in self.drive.names])
         limited = self.solution
         self._fix(tops & ~self._exceeded())
@@ -133,6 +137,24 @@ class DriveFit:
         """Cut the log anew into windows for a latency."""
         reach = min(max(latency, 0.0) + _REACH, MAX_LATENCY)
         self.windows = cut(self.log, latency, self.heavy, reach)
+
+    def _leave_out(self) -> None:
+        """Fit without windows that scatter far more than others.
+
+        A lost command delays a step by a frame. Its residuals count less as outliers, but all are
+        on one side, so a few still shift the latency.
+        """
+        for _ in range(_PASSES):
+            misfit = self._residuals(self.windows)(self.solution.parameters)
+            counted = np.maximum((misfit != 0.0).sum(axis=1), 1)
+            sizes = np.sqrt((misfit**2).sum(axis=1) / counted)
+            usual = float(np.median(sizes))
+            spread = 1.4826 * float(np.median(np.abs(sizes - usual)))
+            kept = sizes <= max(usual + _ODD * spread, _LEAST_ODD * usual)
+            if kept.all():
+                break
+            self.windows = self.windows.take(kept)
+            self.solution = self._solved(self.windows, self.solution.parameters)
 
     def _observed(self) -> dict[str, float]:
         """Greatest speeds that last for some frames."""

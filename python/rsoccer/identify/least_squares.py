@@ -26,6 +26,7 @@ _FREE: Final = 1e-6  # damping that does not shorten steps
 _FAR: Final = 100.0  # steps of slopes that a parameter changes by at once
 _ALL: Final = 500.0  # steps that it changes by in all
 _PART: Final = 0.95  # of an interval
+_LEFT: Final = 0.05  # least part of a number that other blocks tell, as intervals count it
 _FEWEST: Final = 2.0  # degrees of freedom of a number that one block tells alone
 _FREEDOM: Final = np.array([1, 2, 3, 4, 5, 6, 8, 10, 15, 30, np.inf])
 _QUANTILES: Final = np.array(
@@ -107,13 +108,30 @@ class Solution:
         weights = rng.exponential(size=(DRAWS, blocks))
         index = np.flatnonzero(free)
         own = self.curvatures[:, index][:, :, index]
-        curvatures = np.tensordot(weights, own, 1)
-        slopes = weights @ (self.slopes - self.slopes.mean(axis=0))[:, index]
         size = np.sqrt(np.diag(own.sum(axis=0))) + 1e-300
-        scaled = curvatures / np.outer(size, size) + 1e-12 * np.eye(len(index))
+        own = own / size[:, None] / size
+        steep = _unfitted(own, (self.slopes - self.slopes.mean(axis=0))[:, index] / size)
+        scaled = np.tensordot(weights, own, 1) + 1e-12 * np.eye(len(index))
         moved = np.zeros((DRAWS, len(free)))
-        moved[:, index] = -np.linalg.solve(scaled, (slopes / size)[..., None])[..., 0] / size
+        moved[:, index] = -np.linalg.solve(scaled, (weights @ steep)[..., None])[..., 0] / size
         return moved
+
+
+def _unfitted(curvatures: Doubles, slopes: Doubles) -> Doubles:
+    """Slopes of blocks as they scatter around the true parameters, not around fitted ones.
+
+    A fit follows the errors of each block by the block's share of all curvature. Errors are larger
+    than what is left of them by the square root of the other blocks' share (CR2 of Bell and
+    McCaffrey 2002).
+    """
+    sizes, axes = np.linalg.eigh(curvatures.sum(axis=0))
+    root = axes * np.sqrt(np.maximum(sizes, 1e-12 * sizes[-1:]))
+    inverse = np.linalg.pinv(root)
+    shares, turned = np.linalg.eigh(inverse @ curvatures @ inverse.T)
+    left = 1.0 / np.sqrt(np.maximum(1.0 - shares, _LEFT))
+    along = np.einsum("bij,bi->bj", turned, slopes @ inverse.T)
+    scattered: Doubles = np.einsum("bij,bj->bi", turned, along * left) @ root.T
+    return scattered
 
 
 def student(freedom: Doubles | float) -> Doubles:
