@@ -20,7 +20,7 @@ pub(super) struct Frame<'a> {
     pub(super) balls: &'a [DetectedBall],
     /// Robots, by block.
     pub(super) blocks: &'a [DetectedBlock],
-    /// Detections of robots that another camera has detected too.
+    /// Detections of robots that do not count: another camera has detected these robots, too, or follows them.
     pub(super) again: &'a [DetectedRobot],
     /// Motions of the balls and velocities of the robots, by block; empty where only cameras tell them.
     ball_motions: &'a [BallMotion],
