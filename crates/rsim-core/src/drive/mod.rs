@@ -206,7 +206,7 @@ impl BlockCommands {
         self.0 = self.0.map(|column| mask.bitselect(Lanes::ZERO, column));
     }
 
-    /// What the wheels do by these commands.
+    /// Targets of the wheels by these commands.
     pub(crate) fn targets(&self, wheels: &BlockWheels) -> BlockTargets {
         let Self(command) = self;
         BlockTargets(wheels.by_kind(

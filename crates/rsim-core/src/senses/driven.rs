@@ -165,7 +165,7 @@ impl DrivenRobots {
 /// The drives of all robots, which follow known commands.
 struct Drives<'a> {
     orders: Orders<'a>,
-    /// What the wheels do, by block.
+    /// Targets of the wheels, by block.
     targets: Vec<BlockTargets>,
     /// The commands that these are; `None` before the first.
     acting: Option<Acting<'a>>,

@@ -13,7 +13,7 @@ use crate::state::State;
 /// Commands of all robots for a control step, or, with senses, until others are heard.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct StepCommands {
-    /// What the wheels do, by block.
+    /// Targets of the wheels, by block.
     targets: Vec<BlockTargets>,
     /// Robots that are to kick or to dribble.
     pub(super) handling: Vec<HandlingCommand>,
@@ -98,7 +98,7 @@ impl StepCommands {
         self.kick_errors = errors.kick_errors;
     }
 
-    /// What the wheels do, by block.
+    /// Targets of the wheels, by block.
     pub(crate) fn targets(&self) -> &[BlockTargets] {
         &self.targets
     }
