@@ -55,9 +55,9 @@ pub(crate) fn write_clipped(
     py.detach(|| {
         let rows = out.chunks_exact_mut(columns.max(1)).zip(values.chunks_exact(size.max(1)));
         for (row, values) in rows {
-            for ((out, value), bound) in row[first..].iter_mut().zip(values).zip(&*bounds) {
-                *out = clip(*value, *bound);
-            }
+            let row = &mut row[first..first + size];
+            row.copy_from_slice(values);
+            clip_row(row, &bounds);
         }
     });
     Ok(())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 import ipaddress
 import selectors
 import socket
@@ -159,6 +160,7 @@ def group_receiver(group: str, port: int, interface: str) -> socket.socket:
     return made
 
 
+@functools.lru_cache(maxsize=256)  # asked for with each message of a client on the network
 def is_own_host(host: str) -> bool:
     """Return whether a host is this machine.
 
