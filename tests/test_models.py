@@ -4,6 +4,7 @@ import json
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any, cast
 
@@ -11,7 +12,20 @@ import numpy as np
 import pytest
 
 import rsoccer
-from rsoccer._core import BallModel, Field, RobotModel, Sensing, SimConfig, Simulator
+from rsoccer._core import (
+    AreaShield,
+    AttackShield,
+    BallModel,
+    Field,
+    Forecaster,
+    Referee,
+    RobotModel,
+    ScriptedTeam,
+    Sensing,
+    SimConfig,
+    Simulator,
+    VisionTracker,
+)
 from rsoccer.registry import list_options, task_class
 from rsoccer.tasks import VssSelfPlay
 
@@ -248,7 +262,6 @@ def test_a_preset_that_is_no_text_is_refused_by_name(kind: Any) -> None:  # noqa
             lambda: MIXED.with_sensing(cast(Sensing, "rc2021")),
             "sensing: expected a Sensing or None, got 'rc2021'",
         ),
-        (lambda: Simulator(cast(SimConfig, "ssl_b")), "config: expected a SimConfig, got 'ssl_b'"),
         (lambda: Simulator(MIXED, cast(int, 1.5)), "worlds: expected a whole number, got 1.5"),
     ],
 )
@@ -257,6 +270,31 @@ def test_arguments_without_defaults_are_refused_by_name(
 ) -> None:
     with pytest.raises(TypeError, match=f"^{message}"):
         make()
+
+
+@pytest.mark.parametrize("kind", [Simulator, Forecaster])
+def test_threads_and_snapshots_are_refused_by_name(kind: type[Simulator | Forecaster]) -> None:
+    with pytest.raises(TypeError, match=r"^threads: expected a whole number or Threads, got 'x'"):
+        kind(MIXED, 1, cast(int, "x"))
+    with pytest.raises(TypeError, match=r"^snapshot: expected bytes, got 5"):
+        kind(MIXED).restore(cast(bytes, 5))
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        AreaShield,
+        AttackShield,
+        partial(Referee, rules=""),
+        partial(ScriptedTeam, skill=1.0),
+        Simulator,
+        Forecaster,
+        VisionTracker,
+    ],
+)
+def test_a_text_is_no_configuration(make: Callable[[SimConfig], object]) -> None:
+    with pytest.raises(TypeError, match=r"^config: expected a SimConfig, got 'ssl_b'"):
+        make(cast(SimConfig, "ssl_b"))
 
 
 @pytest.mark.parametrize("wrong", [True, np.False_], ids=["bool", "numpy"])

@@ -129,8 +129,8 @@ class SoccerEnv(EnvBase):
         Raises:
             ImportError: a text "module:name" whose module or name does not exist.
             TypeError: an argument of the wrong type, or options for a `Task` object.
-            ValueError: an unknown task, option or controller, a number out of range, no robot
-                that learns, or groups that do not hold each learner once.
+            ValueError: an unknown task, option, controller or device, a number out of range, no
+                robot that learns, or groups that do not hold each learner once.
         """
         self.task = resolve_task(task, max_steps, options, SoccerEnv.__init__)
         self.matches = EnvMatches(
@@ -155,7 +155,7 @@ class SoccerEnv(EnvBase):
         device: Any,  # noqa: ANN401
     ) -> None:
         """Set everything but the matches."""
-        super().__init__(device=device, batch_size=(self.matches.worlds,))
+        super().__init__(device=_device(device), batch_size=(self.matches.worlds,))
         self.group_map = _groups(group_map, self.matches.agents)
         names = self.matches.agents
         self._columns = {
@@ -327,8 +327,19 @@ def _groups(
     if taken := [group for group in given if group in KEYS]:
         raise ValueError(f"group_map: expected other names of groups than {KEYS}, got {taken}")
     groups = {group: list(names) for group, names in given.items()}
-    check_marl_grouping(groups, list(agents))
+    try:
+        check_marl_grouping(groups, list(agents))
+    except ValueError as error:
+        raise ValueError(f"group_map: {error}") from error
     return groups
+
+
+def _device(given: Any) -> torch.device | None:  # noqa: ANN401
+    """A torch device, or None."""
+    try:
+        return None if given is None else torch.device(given)
+    except (RuntimeError, TypeError) as error:
+        raise ValueError(f"device: expected a torch device, got {given!r}") from error
 
 
 def _indices(columns: list[int]) -> slice | NDArray[np.intp]:

@@ -139,6 +139,8 @@ def test_the_runner_samples_stacked_observations() -> None:
 def test_the_environment_names_what_it_refuses() -> None:
     with pytest.raises(ValueError, match="env_config: expected a 'task'"):
         SoccerMultiAgentEnv({})
+    with pytest.raises(TypeError, match=r"env_config: expected values by name, .* got 'VSS-v0'"):
+        SoccerMultiAgentEnv("VSS-v0")  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="unexpected keyword argument 'unknown'"):
         SoccerMultiAgentEnv({"task": TASK, "unknown": 1})
 

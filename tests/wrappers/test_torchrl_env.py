@@ -166,8 +166,11 @@ def test_bad_arguments_are_named() -> None:
         SoccerEnv(TASK, 0)
     with pytest.raises(TypeError, match="state"):
         SoccerEnv(TASK, state="yes")  # type: ignore[arg-type]
-    with pytest.raises(ValueError, match="blue_1"):
+    with pytest.raises(ValueError, match=r"^group_map: .*blue_1"):
         SoccerEnv(TASK, group_map={"one": ["blue_0"]})
+    for device in ("nope", 1.5):
+        with pytest.raises(ValueError, match=f"^device: expected a torch device, got .*{device}"):
+            SoccerEnv(TASK, device=device)
     with pytest.raises(TypeError, match=r"^group_map: expected names of learners by .*'x'"):
         SoccerEnv(TASK, group_map="x")
     with pytest.raises(TypeError, match=r"^group_map\['one'\]: expected names of learners, got 'b"):

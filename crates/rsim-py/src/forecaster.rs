@@ -6,6 +6,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use rsim_core::Knowledge;
 
+use crate::arguments::required;
 use crate::arrays::{Commands, InputRows, Mask, RowsOut, finite, readable, values, writeable};
 use crate::config::{SimConfig, invalid, of_argument, worlds};
 use crate::threads::ThreadsOrCount;
@@ -43,7 +44,7 @@ impl Forecaster {
         py: Python<'_>,
         #[pyo3(from_py_with = of_argument)] config: SimConfig,
         #[pyo3(from_py_with = worlds)] worlds: usize,
-        threads: ThreadsOrCount<'_>,
+        #[pyo3(from_py_with = ThreadsOrCount::of_argument)] threads: ThreadsOrCount<'_>,
         known: Known,
     ) -> PyResult<Self> {
         let threads = threads.started(py)?;
@@ -117,7 +118,9 @@ impl Forecaster {
         PyBytes::new(py, &self.0.snapshot())
     }
 
-    fn restore(&mut self, snapshot: &[u8]) -> PyResult<()> {
+    fn restore(&mut self, snapshot: &Bound<'_, PyAny>) -> PyResult<()> {
+        let snapshot: Bound<'_, PyBytes> = required("snapshot", "bytes", snapshot)?;
+        let snapshot = snapshot.as_bytes();
         self.0.restore(snapshot).map_err(invalid)
     }
 
@@ -129,7 +132,7 @@ impl Forecaster {
         self.snapshot(py)
     }
 
-    fn __setstate__(&mut self, state: &[u8]) -> PyResult<()> {
+    fn __setstate__(&mut self, state: &Bound<'_, PyAny>) -> PyResult<()> {
         self.restore(state)
     }
 

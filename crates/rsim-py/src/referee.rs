@@ -14,7 +14,7 @@ use rsim_referee::statistics::{Statistics, count_offense, offense_columns};
 use rsim_referee::{Decisions, RefereeError, Team, rules};
 
 use crate::arrays::{Rows, readable, sizes, values, writeable};
-use crate::config::SimConfig;
+use crate::config::{SimConfig, of_argument};
 use crate::match_arrays::{MatchArrays, Matches, Sizes};
 use crate::threads::{Threads, write_rows};
 
@@ -51,7 +51,7 @@ struct Portion<'a> {
 #[pymethods]
 impl Referee {
     #[new]
-    fn new(config: &SimConfig, rules: String) -> PyResult<Self> {
+    fn new(#[pyo3(from_py_with = of_argument)] config: SimConfig, rules: String) -> PyResult<Self> {
         let decoded: RefereeConfig = serde_json::from_str(&rules)
             .map_err(|error| PyValueError::new_err(format!("rules: {error}")))?;
         let layout = rsim_match::layout(&config.0).map_err(invalid)?;
@@ -65,7 +65,7 @@ impl Referee {
             row: layout.row_size(),
         };
         let judge = rsim_referee::Referee::new(decoded, pitch, layout).map_err(invalid)?;
-        Ok(Self { judge, rules, config: config.clone(), sizes })
+        Ok(Self { judge, rules, config, sizes })
     }
 
     /// Returns the row of a match whose first kick-off a team has.

@@ -10,7 +10,7 @@ use rsim_referee::game::Game;
 use rsim_teams::{COMMAND_COLUMNS, TACTICS};
 
 use crate::arrays::{Rows, readable, sizes, values, writeable};
-use crate::config::SimConfig;
+use crate::config::{SimConfig, of_argument};
 use crate::threads::{Threads, write_rows};
 
 /// Most worlds whose commands the caller's thread computes alone.
@@ -30,7 +30,7 @@ pub(crate) struct ScriptedTeam {
 #[pymethods]
 impl ScriptedTeam {
     #[new]
-    fn new(config: &SimConfig, skill: f32) -> PyResult<Self> {
+    fn new(#[pyo3(from_py_with = of_argument)] config: SimConfig, skill: f32) -> PyResult<Self> {
         let sim = &config.0;
         let (n_blue, n_yellow) = (sim.blue.len(), sim.yellow.len());
         let Some(robot) = sim.robots().next() else {
@@ -45,7 +45,6 @@ impl ScriptedTeam {
         };
         let team = rsim_teams::ScriptedTeam::new(&team).map_err(invalid)?;
         let memory_size = team.memory_columns().len();
-        let config = config.clone();
         let row_size = config.0.row_size();
         Ok(Self { team, config, skill, sizes: [n_blue, n_yellow], memory_size, row_size })
     }

@@ -5,7 +5,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::arrays::{Rows, readable, sizes, values, writeable};
-use crate::config::SimConfig;
+use crate::config::{SimConfig, of_argument};
 use crate::threads::{Threads, write_rows};
 
 /// Most worlds whose actions the caller's thread changes alone.
@@ -25,10 +25,10 @@ pub(crate) struct AreaShield {
 #[pymethods]
 impl AreaShield {
     #[new]
-    fn new(config: &SimConfig) -> PyResult<Self> {
+    fn new(#[pyo3(from_py_with = of_argument)] config: SimConfig) -> PyResult<Self> {
         let shield = rsim_match::AreaShield::new(&config.0)
             .map_err(|error| PyValueError::new_err(error.to_string()))?;
-        Ok(Self { shield, config: config.clone() })
+        Ok(Self { shield, config })
     }
 
     /// Changes the actions of robots that would be one too many in a goal area.
@@ -63,10 +63,10 @@ pub(crate) struct AttackShield {
 #[pymethods]
 impl AttackShield {
     #[new]
-    fn new(config: &SimConfig) -> PyResult<Self> {
+    fn new(#[pyo3(from_py_with = of_argument)] config: SimConfig) -> PyResult<Self> {
         let shield = rsim_match::AttackShield::new(&config.0)
             .map_err(|error| PyValueError::new_err(error.to_string()))?;
-        Ok(Self { shield, config: config.clone() })
+        Ok(Self { shield, config })
     }
 
     /// Changes the actions of robots that could not stop in time.

@@ -7,6 +7,7 @@ use pyo3::types::PyBytes;
 use rsim_core::columns::BALL_COLUMNS;
 use rsim_core::{Batch, PlaceError};
 
+use crate::arguments::required;
 use crate::arrays::{
     Commands, InputRows, Keys, Mask, RobotsMask, Rows, RowsOut, finite, readable, values, writeable,
 };
@@ -30,7 +31,7 @@ impl Simulator {
         py: Python<'_>,
         #[pyo3(from_py_with = of_argument)] config: SimConfig,
         #[pyo3(from_py_with = worlds)] worlds: usize,
-        threads: ThreadsOrCount<'_>,
+        #[pyo3(from_py_with = ThreadsOrCount::of_argument)] threads: ThreadsOrCount<'_>,
     ) -> PyResult<Self> {
         let threads = threads.started(py)?;
         let batch = py.detach(|| Batch::on_threads(&config.0, worlds, threads));
@@ -225,7 +226,9 @@ impl Simulator {
         PyBytes::new(py, &bytes)
     }
 
-    fn restore(&mut self, py: Python<'_>, snapshot: &[u8]) -> PyResult<()> {
+    fn restore(&mut self, py: Python<'_>, snapshot: &Bound<'_, PyAny>) -> PyResult<()> {
+        let snapshot: Bound<'_, PyBytes> = required("snapshot", "bytes", snapshot)?;
+        let snapshot = snapshot.as_bytes();
         py.detach(|| self.0.restore(snapshot)).map_err(invalid)
     }
 
@@ -237,7 +240,7 @@ impl Simulator {
         self.snapshot(py)
     }
 
-    fn __setstate__(&mut self, py: Python<'_>, state: &[u8]) -> PyResult<()> {
+    fn __setstate__(&mut self, py: Python<'_>, state: &Bound<'_, PyAny>) -> PyResult<()> {
         self.restore(py, state)
     }
 

@@ -3,6 +3,7 @@
 use numpy::{IxDyn, PyReadonlyArray, PyReadwriteArray, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
+use crate::arguments::required;
 use crate::arrays::{readable, values, writeable};
 use crate::config::{count, invalid};
 
@@ -58,13 +59,20 @@ impl Threads {
 }
 
 /// Number of threads, or the threads themselves.
-#[derive(FromPyObject)]
 pub(crate) enum ThreadsOrCount<'py> {
     Threads(Bound<'py, Threads>),
     Count(i64),
 }
 
-impl ThreadsOrCount<'_> {
+impl<'py> ThreadsOrCount<'py> {
+    /// Converts the argument `threads`.
+    pub(crate) fn of_argument(value: &Bound<'py, PyAny>) -> PyResult<Self> {
+        match value.cast::<Threads>() {
+            Ok(threads) => Ok(Self::Threads(threads.clone())),
+            Err(_) => required("threads", "a whole number or Threads", value).map(Self::Count),
+        }
+    }
+
     /// The given threads, or as many new ones as given.
     pub(crate) fn started(&self, py: Python<'_>) -> PyResult<rsim_core::Threads> {
         match self {

@@ -76,7 +76,7 @@ class SoccerMultiAgentEnv(MultiAgentEnv):
 
         Raises:
             ImportError: a text "module:name" whose module or name does not exist.
-            TypeError: an option of the wrong type or unknown.
+            TypeError: a config that is no mapping, or an option of the wrong type or unknown.
             ValueError: no task, or a value that `Matches` refuses.
         """
         super().__init__()
@@ -195,9 +195,11 @@ def new_matches(
 
     Raises:
         ImportError: a text "module:name" whose module or name does not exist.
-        TypeError: an option of the wrong type or unknown.
+        TypeError: a config that is no mapping, or an option of the wrong type or unknown.
         ValueError: no task, or a value that `Matches` refuses.
     """
+    if not isinstance(config, Mapping):
+        raise TypeError(f"env_config: expected values by name, with a 'task', got {config!r}")
     given = {name: value for name, value in config.items() if name not in RUNNER_SETTINGS}
     if "task" not in given:
         raise ValueError(f"env_config: expected a 'task', got {sorted(given)}")
