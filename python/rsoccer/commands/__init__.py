@@ -37,8 +37,9 @@ def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at
     """Return the union of the commands, as tyro takes it.
 
     Args:
-        words: the words after `rsoccer`. Options of `train` that they do not give have the values
-            of the run that they resume, or else the recommended ones for the task that they name.
+        words: the words after `rsoccer`. Options of `train` and `evolve` that they do not give have
+            the values of the run that they resume, or else the recommended ones for the task that
+            they name.
 
     Raises:
         ImportError: a module that the words import does not exist or raises an error.
@@ -48,13 +49,11 @@ def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at
     default = _train_defaults(words)
     task = _last_value(words, "--task") or DistillArgs.task
     distill_default = Distill(CommandDistillArgs.for_task(task))
-    task = _last_value(words, "--task") or EvolveArgs.task
-    evolve_default = Evolve(CommandEvolveArgs.for_task(task))
     return (
         Annotated[List, subcommand("list")]
         | Annotated[Train, subcommand("train", default=default)]
         | Annotated[Distill, subcommand("distill", default=distill_default)]
-        | Annotated[Evolve, subcommand("evolve", default=evolve_default)]
+        | Annotated[Evolve, subcommand("evolve", default=_evolve_defaults(words))]
         | Annotated[Evaluate, subcommand("evaluate")]
         | Annotated[Tournament, subcommand("tournament")]
         | Annotated[Cooperation, subcommand("cooperation")]
@@ -74,15 +73,24 @@ def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at
 def _train_defaults(words: Sequence[str]) -> Train:
     """Values of the options of `train` that the words do not give."""
     resumed = None
-    if _resumes(words):
+    if _resumes(words, "train"):
         resumed = CommandArgs.of_run(Path(_last_value(words, "--out") or Args.out))
     return Train(resumed or CommandArgs.for_task(_last_value(words, "--task") or Args.task))
 
 
-def _resumes(words: Sequence[str]) -> bool:
-    """Whether the words resume a training run."""
+def _evolve_defaults(words: Sequence[str]) -> Evolve:
+    """Values of the options of `evolve` that the words do not give."""
+    resumed = None
+    if _resumes(words, "evolve"):
+        resumed = CommandEvolveArgs.of_run(Path(_last_value(words, "--out") or EvolveArgs.out))
+    task = _last_value(words, "--task") or EvolveArgs.task
+    return Evolve(resumed or CommandEvolveArgs.for_task(task))
+
+
+def _resumes(words: Sequence[str], command: str) -> bool:
+    """Whether the words are those of a command that resumes a run."""
     switches = [word for word in words if word in ("--resume", "--no-resume")]
-    return "train" in words[:1] and switches[-1:] == ["--resume"]
+    return command in words[:1] and switches[-1:] == ["--resume"]
 
 
 def _last_value(words: Sequence[str], option: str) -> str | None:

@@ -15,6 +15,7 @@ import rsoccer
 from rsoccer.policies.evolved import Evolved
 from rsoccer.policies.ssl.team import ScriptedSsl
 from rsoccer.train.evolution import EvolveArgs, evolve, run
+from rsoccer.train.evolution.settings import STATE_FILE
 from rsoccer.train.evolution.strategy import Strategy
 
 OPTIONS = {"half_seconds": 2.0, "halves": 1, "n_blue": 2, "n_yellow": 2}
@@ -55,7 +56,7 @@ def test_wrong_numbers_are_refused_before_anything_is_written(tmp_path: Path) ->
 
 def test_a_run_that_is_older_than_a_setting_goes_on(tmp_path: Path) -> None:
     evolve(args(tmp_path / "run", generations=1))
-    path = tmp_path / "run" / run.STATE_FILE
+    path = tmp_path / "run" / STATE_FILE
     saved = json.loads(path.read_text())
     del saved["settings"]["randomization"]
     path.write_text(json.dumps(saved))
@@ -84,11 +85,11 @@ def test_states_that_are_damaged_are_refused_by_the_name_of_the_file(
     tmp_path: Path,
 ) -> None:
     evolve(args(tmp_path / "run", generations=1))
-    path = tmp_path / "run" / run.STATE_FILE
+    path = tmp_path / "run" / STATE_FILE
     saved = {**json.loads(path.read_text()), **changes} if changes else changes
     for text in [json.dumps(saved), ""] if changes is None else [json.dumps(saved)]:
         path.write_text(text)
-        with pytest.raises(ValueError, match=f"resume: .*{run.STATE_FILE}.* {message}"):
+        with pytest.raises(ValueError, match=f"resume: .*{STATE_FILE}.* {message}"):
             evolve(args(tmp_path / "run", resume=True))
 
 

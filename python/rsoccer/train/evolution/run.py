@@ -26,15 +26,13 @@ from rsoccer.registry import task_with_options
 from rsoccer.sources import make_sensing
 from rsoccer.task import LEARN, Task
 from rsoccer.train.args import SETTINGS_FILE
-from rsoccer.train.evolution.settings import EvolveArgs
+from rsoccer.train.evolution.settings import STATE_FILE, EvolveArgs
 from rsoccer.train.evolution.strategy import Strategy, standardized
 from rsoccer.train.run.folder import POLICY_FILE, check_empty, digests_of, locked
 from rsoccer.train.run.log import FILE_NAME as LOG_FILE
 from rsoccer.train.run.log import append_row
 from rsoccer.view import SIDES
 
-STATE_FILE: Final = "evolution.json"
-"""Name of the file from which a run resumes."""
 _CHANGEABLE: Final = ("generations", "out", "resume", "threads")
 """Settings that may differ when a run resumes."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -11,6 +12,11 @@ from rsoccer.option_values import encoded
 from rsoccer.policies.evolved import SCRIPTS
 from rsoccer.sources import make_sensing
 from rsoccer.train.setting_types import Count, Natural, Positive, Range, convert_fields, expect
+
+STATE_FILE: Final = "evolution.json"
+"""Name of the file from which a run resumes."""
+_OF_ONE_CALL: Final = {"out", "resume"}
+"""Settings that belong to one call, and not to the run."""
 
 Momentum = Annotated[float, Range("at least 0 and below 1", 0.0, 0.999)]
 """Share of the last step."""
@@ -108,6 +114,22 @@ class EvolveArgs:
             ('scripted:0.5', 'scripted')
         """
         return cls(task, **{**_RECOMMENDED.get(task, {}), **changes})
+
+    @classmethod
+    def of_run(cls, folder: Path) -> Self | None:
+        """Return the settings of the run in a folder, the defaults when it resumes.
+
+        Args:
+            folder: the `out` of the run.
+
+        Returns:
+            None if the file of its state is missing, damaged or of a version with other settings.
+        """
+        try:
+            saved = json.loads((folder / STATE_FILE).read_bytes())["settings"]
+            return cls(**{name: saved[name] for name in saved if name not in _OF_ONE_CALL})
+        except (OSError, KeyError, TypeError, ValueError):  # resuming reports what is wrong
+            return None
 
     def to_json(self) -> dict[str, Any]:
         """Return the settings as JSON values by name."""

@@ -123,8 +123,8 @@ def copy_weights(policy: Network, stack: ObservationStack, model: ActorCritic) -
         sizes = [len(bias) for _, bias in policy.layers]
         wanted = [len(bias) for bias in parameters[1::2]]
         raise ValueError(
-            f"network.initial_policy: expected layers of {wanted} units, as the settings of the "
-            f"network say, got {sizes}"
+            f"network.initial_policy: expected layers of {wanted} units, as hidden_sizes and "
+            f"robot_units of the network say, got {sizes}; None begins with random weights"
         )
     for parameter, part in zip(parameters, given, strict=True):
         parameter.copy_(torch.tensor(part))
