@@ -191,6 +191,36 @@ def test_a_stepper_that_cannot_place_is_read() -> None:
     assert bare.closed
 
 
+def test_robots_that_rest_against_each_other_do_not_collide_by_wrong_velocities() -> None:
+    """Formerly each velocity of a tracker that took a robot to be pushed was a collision."""
+    config = make_task("SSLContestedPossession-v0").config
+
+    class Leaning:
+        """Two robots that touch; the first one's velocity is noise."""
+
+        rng = np.random.default_rng(0)
+
+        def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> None:
+            self.read(out)
+
+        def read(self, out: Floats) -> None:
+            frame = Frame(out, 1, 1)
+            frame.robots.position[0] = (0.0, 0.0), (2.0 * config.robot.radius, 0.0)
+            frame.robots.heading[:] = 1.0, 0.0
+            frame.robots.velocity[0] = (self.rng.normal(0.0, 0.5), 0.0), (0.0, 0.0)
+            frame.ball.position[:] = 1.0, 0.0
+
+    completed = CompletedStepper(Leaning(), config, velocities=False)
+    out = Frame.empty(1, 1, 1)
+    completed.read(out.rows)
+    speeds = []
+    for _ in range(40):
+        completed.step(np.zeros((1, 2, 6), np.float32), out.rows)
+        assert out.robots.touched_opponent.all()
+        speeds.append(float(out.robots.collision_speed.max()))
+    assert max(speeds[1:]) < 1e-3
+
+
 def test_poses_that_are_not_finite_are_refused() -> None:
     class Losing(PosesOnly):
         """Loses the ball of one world."""

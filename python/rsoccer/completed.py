@@ -76,6 +76,7 @@ class CompletedStepper:
         self._last = Frame.empty(worlds, config.n_blue, config.n_yellow)
         self._raw = Frame.empty(worlds, config.n_blue, config.n_yellow)
         self._times = np.full(worlds, np.nan)
+        self._record = None if velocities else derived.TrackRecord(self._last)
 
     def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> Doubles | None:
         """Advance the active worlds by one control step, and complete their rows.
@@ -94,7 +95,11 @@ class CompletedStepper:
         times = self._stepper.step(commands, self._raw.rows, active)
         worlds = np.flatnonzero(np.ones(len(out), np.bool_) if active is None else active)
         last, frame = self._last.take(worlds), self._raw.take(worlds)
-        self._complete(last, frame, self._elapsed(worlds, times))
+        seconds = self._elapsed(worlds, times)
+        mean_motion = None if self._record is None else self._record.mean_motion(worlds, last)
+        self._complete(last, frame, seconds, mean_motion)
+        if self._record is not None:
+            self._record.add(worlds, last, seconds)
         self._keep(worlds, frame, out)
         return times
 
@@ -137,6 +142,8 @@ class CompletedStepper:
         robots.infrared[:] = derived.beam_broken(frame, self._config)
         for column in (robots.touched_ball, robots.touched_opponent, robots.collision_speed):
             column[:] = 0.0
+        if self._record is not None:
+            self._record.begin(worlds, frame)
         self._keep(worlds, frame, out)
 
     def _keep(self, worlds: NDArray[np.intp], frame: Frame, out: Floats) -> None:
@@ -160,7 +167,9 @@ class CompletedStepper:
         elapsed = np.where(np.isnan(last), step, np.maximum(times[worlds] - last, 0.0))
         return elapsed.astype(np.float32)
 
-    def _complete(self, last: Frame, frame: Frame, seconds: Floats) -> None:
+    def _complete(
+        self, last: Frame, frame: Frame, seconds: Floats, mean_motion: Frame | None
+    ) -> None:
         """Fill in all columns of a frame but those of poses."""
         config, gap, same = self._config, self._gap, seconds == 0.0
         ball, robots = frame.ball, frame.robots
@@ -175,7 +184,7 @@ class CompletedStepper:
         ball.data[:, _SINCE_TOUCH] = np.stack(
             derived.since_touch(last, frame, touched, seconds), axis=1
         )
-        contacts = derived.collisions(last, frame, config, seconds, gap)
+        contacts = derived.collisions(last, frame, config, seconds, gap, mean_motion)
         robots.touched_opponent[:], robots.collision_speed[:] = contacts
         robots.infrared[:] = derived.beam_broken(frame, config)
 

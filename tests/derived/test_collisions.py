@@ -48,3 +48,12 @@ def test_robots_that_brake_in_time_have_not_met() -> None:
     last, frame = pair(SIDE + 0.031, speed=1.3), pair(SIDE + 0.031, speed=1.06)
     frame.robots.position[0, 0, 0] = 0.0296
     assert not derived.collisions(last, frame, VSS, 0.025).opponent.any()
+
+
+def test_robots_close_at_the_lower_of_two_estimated_speeds() -> None:
+    """A tracker that takes a robot to be pushed tells a velocity with much noise."""
+    last, frame, slow = pair(SIDE, speed=1.5), pair(SIDE), pair(SIDE, speed=0.1)
+    for first, second in ((last, slow), (slow, last)):
+        found = derived.collisions(first, frame, VSS, 0.025, mean_motion=second)
+        assert found.speed[0, [0, 3]] == pytest.approx(0.1, abs=1e-4)
+        assert found.opponent[0].tolist() == [True, False, False, True, False, False]

@@ -17,6 +17,8 @@ from rsoccer.derived.touches import (
     last_touch,
     since_touch,
 )
+from rsoccer.derived.track_record import TrackRecord
 
-__all__ = ["Collisions", "Crossing", "SinceTouch", "ball_holder", "ball_touches", "beam_broken"]
-__all__ += ["collisions", "crossing", "differentiate", "last_touch", "roll", "since_touch"]
+__all__ = ["Collisions", "Crossing", "SinceTouch", "TrackRecord", "ball_holder", "ball_touches"]
+__all__ += ["beam_broken", "collisions", "crossing", "differentiate", "last_touch", "roll"]
+__all__ += ["since_touch"]

@@ -33,6 +33,7 @@ def collisions(
     config: SimConfig,
     seconds: Seconds,
     gap: float = CONTACT_GAP,
+    mean_motion: Frame | None = None,
 ) -> Collisions:
     """Find the robots that touched each other between two frames, and their closing speeds.
 
@@ -47,6 +48,8 @@ def collisions(
         config: robots.
         seconds: time between the two.
         gap: gap up to which two robots touch, m.
+        mean_motion: the earlier frame with mean velocities of some time before it, from
+            `TrackRecord`, where those of `last` are noisy: robots close at the lower speed by both.
 
     Returns:
         The contacts of each robot.
@@ -59,10 +62,9 @@ def collisions(
     pushed = _deviates(last, frame, time)
     met = (now.gap <= gap) | (came.gap <= 0.0).any(axis=0)
     met |= (pushed[:, first] | pushed[:, second]) & (ahead.gap <= gap).any(axis=0)
-    speed = np.maximum(
-        _closing(last, now, gap, first, second),
-        _closing(last, ahead, gap, first, second).max(axis=0),
-    )
+    speed = _hardest(last, now, ahead, gap, first, second)
+    if mean_motion is not None:
+        speed = np.minimum(speed, _hardest(mean_motion, now, ahead, gap, first, second))
     return _by_robot(met, speed * met, config, first, second)
 
 
@@ -89,6 +91,15 @@ def _deviates(last: Frame, frame: Frame, time: Floats) -> Mask:
     half = np.float32(0.5) * time * time
     moved = norm(off[..., 0], off[..., 1]) > half * ACCELERATION
     return moved | (norm(turned[..., 0], turned[..., 1]) > half * ANGULAR_ACCELERATION)
+
+
+def _hardest(
+    frame: Frame, now: Separation, ahead: Separation, gap: float, first: Indices, second: Indices
+) -> Floats:
+    """Highest closing speeds (n, pairs) of surfaces that touch now or on the way there, m/s."""
+    on_way: Floats = _closing(frame, ahead, gap, first, second).max(axis=0)
+    hardest: Floats = np.maximum(_closing(frame, now, gap, first, second), on_way)
+    return hardest
 
 
 def _closing(

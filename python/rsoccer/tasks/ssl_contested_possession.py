@@ -13,8 +13,8 @@ from rsoccer.tasks import scenarios
 from rsoccer.tasks.ssl import ball_at_mouth
 from rsoccer.tasks.ssl_attack import SslAttack
 
-FOUL_SPEED: Final = np.float32(0.5)
-"""Closing speed above which contact with the opponent is a foul, m/s."""
+MAX_FOUL_SPEED: Final = 10.0
+"""Greatest `foul_speed`, m/s: above that of two robots at their top speeds."""
 MIN_OPPONENT_X: Final = 0.5
 """Least x of the opponent in random initial states, m; the attacker starts at 0."""
 
@@ -24,8 +24,8 @@ class SslContestedPossession(SslAttack):
     """SSL attack in which blue_0 must take the ball from the dribbler of an opponent at rest.
 
     Goal of the task, reward terms, termination and metrics are those of `SslAttack`, except that
-    contact with the opponent terminates only above a closing speed of 0.5 m/s, because taking a
-    ball from a dribbler needs contact.
+    contact with the opponent terminates only above a closing speed, because taking a ball from a
+    dribbler needs contact.
 
     Initial state: blue_0 at the center, facing the goal; an opponent at a random position in its
     half, outside its goal area, with a random heading and the ball in its mouth. With `scenario`,
@@ -40,12 +40,19 @@ class SslContestedPossession(SslAttack):
     """Official scenario, 1 to 5; None for random initial states."""
     strict_contact: bool = False
     """True: any contact with the opponent terminates, the rule of the rSoccer paper."""
+    foul_speed: float = 0.5
+    """Closing speed above which contact with the opponent terminates, m/s; a policy that learns
+    with a lower one keeps a margin for robots that brake otherwise."""
+
+    training_options = (*SslAttack.training_options, "foul_speed")
+    """Options that change how a policy learns, not how it plays."""
 
     def __post_init__(self) -> None:
         """Validate the options."""
         if self.scenario is not None:
             checks.integer_in_range("scenario", self.scenario, 1, scenarios.N_CONTESTED_POSSESSION)
         checks.boolean("strict_contact", self.strict_contact)
+        checks.number_in_range("foul_speed", self.foul_speed, 0.0, MAX_FOUL_SPEED)
         super().__post_init__()
 
     def team_sizes(self) -> tuple[int, int]:
@@ -71,7 +78,7 @@ class SslContestedPossession(SslAttack):
         """(n,) whether the attacker hit the opponent too hard, or at all if `strict_contact`."""
         if self.strict_contact:
             return super()._has_fouled(frame)
-        return np.greater(frame.blue.collision_speed[:, 0], FOUL_SPEED)
+        return np.greater(frame.blue.collision_speed[:, 0], np.float32(self.foul_speed))
 
     def _opponent_positions(self, rng: WorldRng) -> Floats:
         """Random positions (n, 1, 2) with enough margin that the ball is inside too."""
