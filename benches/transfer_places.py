@@ -91,7 +91,7 @@ PLACES: Final[Mapping[str, Place]] = {
             "robot_position_noise": 0.0013,
             "heading_noise": 0.01,
         },
-        robot="ssl_erforce_simulator",
+        robot="ssl_erforce_simulator_rc2021",
         ball="ssl_erforce_simulator",
     ),
     "firasim": Place(

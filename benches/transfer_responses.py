@@ -1,9 +1,9 @@
 """The same commands in other simulators and in their likenesses.
 
-`python -m benches.transfer_responses grsim`: one robot kicks, chips, drives and turns, and a ball
-rolls. Distances count from the place where the body lay, and times from its first motion, so that
-delays do not matter. The simulator runs already, as for `benches.transfer`. The numbers are kept
-for `docs/transfer.md`.
+`python -m benches.transfer_responses grsim`: one robot kicks, chips, drives and turns, without the
+ball and with it in its mouth, and a ball rolls. Distances count from the place where the body lay,
+and times from the first motion, so that delays do not matter. The simulator runs already, as for
+`benches.transfer`. The numbers are kept for `docs/transfer.md`.
 """
 
 import argparse
@@ -41,7 +41,7 @@ class Response:
     name: str
     """Name of the row."""
     body: str
-    """Body that moves: "ball", "robot" or "heading"."""
+    """What moves: "ball", "robot", "heading", or "mouth" for the ball as the robot sees it."""
     command: Mapping[str, float]
     """Numbers by column of the commands."""
     seconds: float
@@ -54,9 +54,16 @@ class Response:
     """Numbers by column of the commands that follow; those that the command lacks are 0."""
 
     @property
-    def is_kick(self) -> bool:
-        """True if the robot kicks the ball from its mouth."""
-        return self.body == "ball" and self.ball_speed == 0.0
+    def has_ball(self) -> bool:
+        """True if the robot begins with the ball in its mouth."""
+        return self.body in ("ball", "mouth") and self.ball_speed == 0.0
+
+    @property
+    def first(self) -> str:
+        """What moves first, at time 0."""
+        if self.body != "mouth":
+            return self.body
+        return "heading" if "v_theta" in self.command else "robot"
 
 
 def _ssl() -> tuple[Response, ...]:
@@ -70,7 +77,24 @@ def _ssl() -> tuple[Response, ...]:
         Response("forward 1.5 m/s for .6 s", "robot", {"v_x": 1.5}, 0.6, robot),
         Response("sideways 1.5 m/s for .6 s", "robot", {"v_y": 1.5}, 0.6, robot),
         Response("turn 6 rad/s for .4 s", "heading", {"v_theta": 6.0}, 0.4, (0.1, 0.2, 0.4, 1.0)),
+        *_with_ball("back {:g} m/s", "v_x", (-0.25, -1.0)),
+        *_with_ball("sideways {:g} m/s", "v_y", (0.5,)),
+        *_with_ball("turn {:g} rad/s", "v_theta", (1.0, 4.0)),
     )
+
+
+def _with_ball(name: str, column: str, values: Sequence[float]) -> list[Response]:
+    """Ways of the ball out of the mouth of a robot that moves and dribbles."""
+    return [
+        Response(
+            f"{name.format(abs(value))} with the ball",
+            "mouth",
+            {column: value, "dribbler": 1.0},
+            1.2,
+            (0.2, 0.5, 1.0),
+        )
+        for value in values
+    ]
 
 
 def _chip(speed: float) -> dict[str, float]:
@@ -130,7 +154,7 @@ class Recorder:
         position, heading = start.robots.position[0, 0], start.robots.heading[0, 0]
         position[:], heading[:] = (-0.8 * half, 0.0), (1.0, 0.0)
         ball = start.ball
-        if response.is_kick:
+        if response.has_ball:
             ball.position[0] = (-0.8 * half + model.front_distance + self.config.ball.radius, 0.0)
         else:
             ball.position[0] = (-0.8 * half, 0.4 * self.config.field.width)
@@ -156,19 +180,19 @@ class Recorder:
         self.rows.append((last + step if times is None else float(times[0]), state))
 
     def ways(self, body: str) -> tuple[Doubles, Doubles]:
-        """Return times (n,) s and the ways (n,) of a body since its first state, m or rad."""
+        """Return times (n,) s and the ways (n,) of what moves since its first state, m or rad."""
         times = np.array([time for time, _ in self.rows])
+        headings = np.array([state.robots.heading[0, 0] for _, state in self.rows])
         if body == "heading":
-            headings = np.array([state.robots.heading[0, 0] for _, state in self.rows])
             angles = np.unwrap(np.arctan2(headings[:, 1], headings[:, 0]).astype(np.float64))
             return times, np.abs(angles - angles[0])
-        places = np.array(
-            [
-                state.ball.position[0] if body == "ball" else state.robots.position[0, 0]
-                for _, state in self.rows
-            ],
-            np.float64,
-        )
+        robots = np.array([state.robots.position[0, 0] for _, state in self.rows], np.float64)
+        balls = np.array([state.ball.position[0] for _, state in self.rows], np.float64)
+        if body == "mouth":
+            away, side = balls - robots, np.stack([-headings[:, 1], headings[:, 0]], axis=1)
+            places = np.stack([(away * headings).sum(axis=1), (away * side).sum(axis=1)], axis=1)
+        else:
+            places = balls if body == "ball" else robots
         return times, np.linalg.norm(places - places[0], axis=1)
 
 
@@ -182,19 +206,20 @@ def measure(stepper: object, config: SimConfig, response: Response) -> list[floa
     """
     recorder = Recorder(stepper, config)
     recorder.begin(response)
-    if response.is_kick:
+    if response.has_ball:
         recorder.play({"dribbler": 1.0}, HELD)
         del recorder.rows[:-1]
     recorder.play(response.command, response.seconds)
     recorder.play(response.then, max(response.times) + 0.3 - response.seconds)
-    times, ways = recorder.ways(response.body)
-    threshold = MOVED[response.body]
+    times, ways = recorder.ways(response.first)
+    threshold = MOVED[response.first]
     first = int(np.argmax(ways > threshold))
     if ways[first] <= threshold:
         return [float("nan")] * len(response.times)
     # The motion began within the step before.
     share = threshold / (ways[first] - ways[first - 1])
     began = times[first - 1] + min(share, 1.0) * (times[first] - times[first - 1])
+    ways = recorder.ways(response.body)[1]
     found: list[float] = np.interp([began + time for time in response.times], times, ways).tolist()
     return found
 
@@ -232,6 +257,8 @@ def report(folder: Path = STORED) -> str:
             continue
         there, like = json.loads(path.read_text()), responses(place)
         for each in RESPONSES[place.league]:
+            if each.name not in there:
+                continue
             unit = "rad" if each.body == "heading" else "m"
             cells = [
                 " / ".join("-" if np.isnan(way) else f"{way:.2f}" for way in ways[each.name])

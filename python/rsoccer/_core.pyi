@@ -625,6 +625,10 @@ class RobotModel:
         """Minimum time between two kicks (s, 0 or above)."""
 
     @property
+    def kicker_reach(self) -> float:
+        """Gap between front and ball up to which the kicker reaches it (m, 0 or above)."""
+
+    @property
     def kick_lateral_factor(self) -> float:
         """Part of the ball's speed across the front kept in a kick (0 to 1)."""
 

@@ -19,8 +19,22 @@ def test_every_command_moves_its_body_in_the_likeness(name: str) -> None:
     for each in RESPONSES[place.league]:
         ways = found[each.name]
         assert len(ways) == len(each.times)
+        if each.body == "mouth":
+            continue
         assert all(math.isfinite(way) and way > 0.01 for way in ways), (each.name, ways)
         assert ways[1] > 1.4 * ways[0], "bodies go on"
+
+
+@pytest.mark.parametrize(
+    ("name", "holds"), [(n, n != "er-force") for n in PLACES if n != "firasim"]
+)
+def test_the_dribbler_holds_the_ball_as_it_does_there(name: str, holds: bool) -> None:
+    place = PLACES[name]
+    found = responses(place)
+    held = [each for each in RESPONSES[place.league] if each.body == "mouth"]
+    assert len(held) == 5
+    for each in held:
+        assert (max(found[each.name]) < 0.001) == holds, each.name
 
 
 def test_kicks_have_the_commanded_speed() -> None:

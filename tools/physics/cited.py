@@ -139,11 +139,13 @@ SSL_ROBOTS = {
     "ssl_kiks": SslRobot(0.089, 0.132, 2.6, 8, 8, 0.070, 0.081),
     "ssl_robodragons": SslRobot(0.090, 0.125, 2.4, 6.5, 6.5, 0.0715, 0.075),
 }
+_ERFORCE_SIMULATOR = SslRobot(
+    *(0.089, 0.138, 1.5, 8, 8, 0.064, 0.070), *(3.7, 26.2, 5.8, 7.9, 67, 96)
+)
 SSL_MIMICS = {
     "ssl_grsim": SslRobot(0.090, 0.143, 2.7, 8, 8, 0.0805, 0.08, 3.7, 26.2, 3.6, 3.9, 49, 39),
-    "ssl_erforce_simulator": SslRobot(
-        *(0.089, 0.138, 1.5, 8, 8, 0.064, 0.070), *(3.7, 26.2, 5.8, 7.9, 67, 96)
-    ),
+    "ssl_erforce_simulator": _ERFORCE_SIMULATOR,
+    "ssl_erforce_simulator_rc2021": _ERFORCE_SIMULATOR,
 }
 """Robots of other simulators as they move there: their numbers are those of a fit."""
 GENERIC = SSL_ROBOTS["ssl_generic"]
@@ -170,6 +172,7 @@ SSL_SHARED = {
     "beam_distance": Number(0.010, "m", "rSim: ball within 10 mm of the kicker plate"),
     "beam_height": Number(0.0215, "m", "own choice: height of a resting ball's center"),
     "kicker_recharge_time": Number(0.1, "s", "ER-Force's simulator: minimum"),
+    "kicker_reach": Number(0.05, "m", "own choice, beyond the beam: a kicker fires when it is cut"),
     "kick_lateral_factor": Number(
         0.35, "", "TIGERs: share of the tangential speed kept in a redirect"
     ),

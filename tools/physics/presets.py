@@ -21,7 +21,7 @@ from tools.physics.cited import (
 
 TOPIC = "presets"
 CITED = Criterion(TOPIC, "preset number", "", percent(0.01), "cited source")
-LIMITED = {"ssl_unknown", "ssl_grsim", "ssl_erforce_simulator"}  # have limits of their own
+LIMITED = {"ssl_unknown", *SSL_MIMICS}  # have limits of their own
 
 
 def checks() -> Checks:

@@ -77,6 +77,19 @@ fn there_is_no_kick_without_the_ball_in_the_mouth() {
 }
 
 #[test]
+fn a_kicker_of_short_reach_waits_until_the_ball_touches() {
+    let kick = [0.0, 0.0, 0.0, 5.0, 0.0, 0.0];
+    for (gap, reach, kicks) in [(0.005, 0.05, true), (0.005, 0.001, false), (0.0, 0.001, true)] {
+        let mut scene = lone_omni(&kick);
+        scene.config.blue[0].mouth.as_mut().expect("a mouth").kicker_reach = reach;
+        scene.set_ball([0.0715 + 0.0215 + gap, 0.0], [0.0, 0.0]);
+        let row = scene.after(2);
+        assert_eq!(row[ball_column("v_x")] > 4.0, kicks, "gap {gap}, reach {reach}");
+        assert_eq!(row[ball_column("last_touch")] == 0.0, kicks, "gap {gap}, reach {reach}");
+    }
+}
+
+#[test]
 fn a_kicker_that_is_not_charged_waits() {
     // The back of a goal right in front of the mouth returns the ball before the kicker is charged.
     let mut scene = ball_in_mouth(&[0.0, 0.0, 0.0, 6.0, 0.0, 0.0]);

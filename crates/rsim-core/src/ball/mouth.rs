@@ -59,6 +59,11 @@ impl<'a> HeldBall<'a> {
         })
     }
 
+    /// Whether the kicker reaches the ball.
+    pub(crate) fn is_reached(&self) -> bool {
+        self.gap <= self.mouth.kicker_reach
+    }
+
     /// Velocity of the robot at the ball's center, m/s.
     fn robot_velocity(&self) -> Vector {
         let arm = self.robot.heading * self.place.x + self.robot.heading.perp() * self.place.y;

@@ -22,6 +22,8 @@ numbers! {
         max_chip_speed: NotNegative, "m/s";
         /// Minimum time between two kicks.
         kicker_recharge_time: NotNegative, "s";
+        /// Gap between front and ball up to which the kicker reaches it.
+        kicker_reach: NotNegative, "m";
         /// Part of the ball's speed across the front kept in a kick.
         kick_lateral_factor: Fraction, "1";
         /// Maximum force of the dribbler; beyond it the ball is lost.

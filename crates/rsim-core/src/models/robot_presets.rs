@@ -162,11 +162,11 @@ impl RobotModel {
 
     /// The robot of grSim (fe2bd29) as it moves there: limits by `rsoccer identify` from a log of
     /// `benches.transfer_logs`; a ball touches its kicker at 0.102 m.
-    pub const SSL_GRSIM: Self = ssl(
+    pub const SSL_GRSIM: Self = with_mouth(
         "ssl_grsim",
         FALLBACK_BODY,
-        [8.0, 8.0],
-        [0.0805, 0.08],
+        0.0805,
+        Mouth { kicker_reach: TOUCHING, dribbler_grip: HOLDING, ..mouth([8.0, 8.0], 0.08) },
         Drive::Omni(OmniDrive {
             max_acceleration: 3.6,
             max_deceleration: 3.9,
@@ -176,24 +176,28 @@ impl RobotModel {
         }),
     );
 
-    /// The robot of ER-Force's simulator (9814d057) as it moves there: limits by the same, body of
-    /// [`Self::SSL_ERFORCE`]; a ball touches its dribbler at 0.0855 m and is reported up to 0.0985 m.
-    pub const SSL_ERFORCE_SIMULATOR: Self = with_mouth(
+    /// The robot of ER-Force's simulator (9814d057) as it moves there without realism: limits by the same, body of
+    /// [`Self::SSL_ERFORCE`]; a ball touches its dribbler at 0.0855 m and is reported up to 0.0985 m. The dribbler
+    /// does nothing: a robot that drives back by 0.1 m/s leaves the ball where it is, and the ball bounces off the
+    /// front as off other robots.
+    pub const SSL_ERFORCE_SIMULATOR: Self = erforce_simulator(
         "ssl_erforce_simulator",
-        ERFORCE_BODY,
-        0.064,
-        Mouth { beam_distance: 0.013, ..mouth([8.0, 8.0], 0.070) },
-        Drive::Omni(OmniDrive {
-            max_acceleration: 5.8,
-            max_deceleration: 7.9,
-            max_angular_acceleration: 67.0,
-            max_angular_deceleration: 96.0,
-            ..OMNI
-        }),
+        Mouth {
+            dribbler_grip: 0.0,
+            dribbler_force: 0.0,
+            dribbler_restitution: 0.6,
+            ..ERFORCE_SIMULATOR_MOUTH
+        },
+    );
+
+    /// The same robot under RC2021, the setting of tournaments: its dribbler loses no ball.
+    pub const SSL_ERFORCE_SIMULATOR_RC2021: Self = erforce_simulator(
+        "ssl_erforce_simulator_rc2021",
+        Mouth { dribbler_grip: HOLDING, ..ERFORCE_SIMULATOR_MOUTH },
     );
 
     /// All presets.
-    pub const PRESETS: [Self; 15] = [
+    pub const PRESETS: [Self; 16] = [
         Self::VSS_440RPM,
         Self::VSS_650RPM,
         Self::VSS_FIRASIM,
@@ -209,6 +213,7 @@ impl RobotModel {
         Self::SSL_ROBODRAGONS,
         Self::SSL_GRSIM,
         Self::SSL_ERFORCE_SIMULATOR,
+        Self::SSL_ERFORCE_SIMULATOR_RC2021,
     ];
 
     /// The preset with this name.
@@ -218,6 +223,28 @@ impl RobotModel {
     pub fn preset(name: &str) -> Result<Self, ConfigError> {
         find_preset("robot", &Self::PRESETS, |robot| &robot.name, name)
     }
+}
+
+/// Reach of kickers that fire at a ball that touches the robot, m: above the gap of bodies in contact, and below 2 mm,
+/// at which those of grSim and ER-Force's simulator do not fire (`benches.transfer_logs`).
+const TOUCHING: f32 = 0.001;
+
+/// Grip of dribblers that lose no ball at up to 1.5 m/s backward, 1 m/s sideways and 8 rad/s, N.
+const HOLDING: f32 = 2.0;
+
+/// The mouth of [`RobotModel::SSL_ERFORCE_SIMULATOR`], but for its dribbler.
+const ERFORCE_SIMULATOR_MOUTH: Mouth =
+    Mouth { beam_distance: 0.013, kicker_reach: TOUCHING, ..mouth([8.0, 8.0], 0.070) };
+
+const fn erforce_simulator(name: &'static str, mouth: Mouth) -> RobotModel {
+    let drive = OmniDrive {
+        max_acceleration: 5.8,
+        max_deceleration: 7.9,
+        max_angular_acceleration: 67.0,
+        max_angular_deceleration: 96.0,
+        ..OMNI
+    };
+    with_mouth(name, ERFORCE_BODY, 0.064, mouth, Drive::Omni(drive))
 }
 
 /// Radius, height (m) and mass (kg) of ER-Force's robot.
@@ -291,6 +318,7 @@ const fn mouth([max_kick_speed, max_chip_speed]: [f32; 2], mouth_width: f32) -> 
         max_kick_speed,
         max_chip_speed,
         kicker_recharge_time: 0.1, // minimum of ER-Force's simulator
+        kicker_reach: 0.05,        // farther than any beam: a kicker fires at a ball that cuts it
         kick_lateral_factor: 0.35, // TIGERs: across the front, in a redirect
         // Our choice: with the floor's friction on a ball with back-spin (3 m/s²) it holds the
         // ball up to 5.6 m/s², less than a robot's maximum deceleration. TIGERs drive with the ball at up to

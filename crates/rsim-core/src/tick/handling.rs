@@ -57,8 +57,9 @@ pub(super) fn handle_ball(
         if near >> index & 1 == 0 {
             continue;
         }
-        let kicks = command.kicks() && state.bodies.recharging(index) == 0.0;
-        if !kicks && (command.dribbler == 0.0 || !state.ball.is_down()) {
+        let is_charged = command.kicks() && state.bodies.recharging(index) == 0.0;
+        let dribbles = command.dribbler != 0.0 && state.ball.is_down();
+        if !is_charged && !dribbles {
             continue;
         }
         let body = &parameters.robots[index];
@@ -67,6 +68,10 @@ pub(super) fn handle_ball(
         let held =
             HeldBall::find(&body.model, &motion, &parameters.ball, ball.position, state.ball.z);
         let Some(held) = held else { continue };
+        let kicks = is_charged && held.is_reached();
+        if !kicks && !dribbles {
+            continue;
+        }
         handled = true;
         state.touches.add_ball(index);
         if kicks {
