@@ -178,16 +178,10 @@ impl RobotModel {
 
     /// The robot of ER-Force's simulator (9814d057) as it moves there without realism: limits by the same, body of
     /// [`Self::SSL_ERFORCE`]; a ball touches its dribbler at 0.0855 m and is reported up to 0.0985 m. The dribbler
-    /// does nothing: a robot that drives back by 0.1 m/s leaves the ball where it is, and the ball bounces off the
-    /// front as off other robots.
+    /// does nothing: a robot that drives back by 0.1 m/s leaves the ball where it is.
     pub const SSL_ERFORCE_SIMULATOR: Self = erforce_simulator(
         "ssl_erforce_simulator",
-        Mouth {
-            dribbler_grip: 0.0,
-            dribbler_force: 0.0,
-            dribbler_restitution: 0.6,
-            ..ERFORCE_SIMULATOR_MOUTH
-        },
+        Mouth { dribbler_grip: 0.0, dribbler_force: 0.0, ..ERFORCE_SIMULATOR_MOUTH },
     );
 
     /// The same robot under RC2021, the setting of tournaments: its dribbler loses no ball.
@@ -233,8 +227,12 @@ const TOUCHING: f32 = 0.001;
 const HOLDING: f32 = 2.0;
 
 /// The mouth of [`RobotModel::SSL_ERFORCE_SIMULATOR`], but for its dribbler.
-const ERFORCE_SIMULATOR_MOUTH: Mouth =
-    Mouth { beam_distance: 0.013, kicker_reach: TOUCHING, ..mouth([8.0, 8.0], 0.070) };
+const ERFORCE_SIMULATOR_MOUTH: Mouth = Mouth {
+    beam_distance: 0.013,
+    kicker_reach: TOUCHING,
+    dribbler_restitution: 0.05, // balls of 1 to 4 m/s come back with 0.01 to 0.1 of it
+    ..mouth([8.0, 8.0], 0.070)
+};
 
 const fn erforce_simulator(name: &'static str, mouth: Mouth) -> RobotModel {
     let drive = OmniDrive {
