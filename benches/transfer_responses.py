@@ -41,7 +41,7 @@ class Response:
     name: str
     """Name of the row."""
     body: str
-    """What moves: "ball", "robot", "heading", or "mouth" for the ball as the robot sees it."""
+    """Moving body: "ball", "robot", "heading", or "mouth" for the ball as the robot sees it."""
     command: Mapping[str, float]
     """Numbers by column of the commands."""
     seconds: float
@@ -60,7 +60,7 @@ class Response:
 
     @property
     def first(self) -> str:
-        """What moves first, at time 0."""
+        """Body that moves first, at time 0."""
         if self.body != "mouth":
             return self.body
         return "heading" if "v_theta" in self.command else "robot"
