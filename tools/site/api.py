@@ -122,6 +122,7 @@ GROUPS: Final = (
             "rsoccer.derived.lines",
             "rsoccer.derived.touches",
             "rsoccer.derived.collisions",
+            "rsoccer.derived.track_record",
             "rsoccer.derived.outlines",
         ),
     ),

@@ -24,8 +24,8 @@ class SslContestedPossession(SslAttack):
     """SSL attack in which blue_0 must take the ball from the dribbler of an opponent at rest.
 
     Goal of the task, reward terms, termination and metrics are those of `SslAttack`, except that
-    contact with the opponent terminates only above a closing speed, because taking a ball from a
-    dribbler needs contact.
+    contact with the opponent terminates only above a closing speed of 0.5 m/s (`foul_speed`),
+    because taking a ball from a dribbler needs contact.
 
     Initial state: blue_0 at the center, facing the goal; an opponent at a random position in its
     half, outside its goal area, with a random heading and the ball in its mouth. With `scenario`,
