@@ -128,7 +128,7 @@ class EvolveArgs:
         try:
             saved = json.loads((folder / STATE_FILE).read_bytes())["settings"]
             return cls(**{name: saved[name] for name in saved if name not in _OF_ONE_CALL})
-        except (OSError, KeyError, TypeError, ValueError):  # resuming reports what is wrong
+        except (OSError, LookupError, TypeError, ValueError):  # resuming reports what is wrong
             return None
 
     def to_json(self) -> dict[str, Any]:
