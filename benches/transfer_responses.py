@@ -257,8 +257,6 @@ def report(folder: Path = STORED) -> str:
             continue
         there, like = json.loads(path.read_text()), responses(place)
         for each in RESPONSES[place.league]:
-            if each.name not in there:
-                continue
             unit = "rad" if each.body == "heading" else "m"
             cells = [
                 " / ".join("-" if np.isnan(way) else f"{way:.2f}" for way in ways[each.name])

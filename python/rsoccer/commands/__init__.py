@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeVar
 
 from tyro.conf import subcommand
 
@@ -28,9 +28,9 @@ from rsoccer.commands.train import CommandArgs, Train
 from rsoccer.commands.watch import Watch
 from rsoccer.commands.what_if import WhatIf
 from rsoccer.plugins import import_modules
-from rsoccer.train import Args
 from rsoccer.train.distillation import DistillArgs
-from rsoccer.train.evolution import EvolveArgs
+
+A = TypeVar("A", CommandArgs, CommandEvolveArgs)
 
 
 def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at run time)
@@ -46,14 +46,15 @@ def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at
         ValueError: another text in the place of a module's name.
     """
     import_modules(imported(words))  # settings may be those of a task that one registers
-    default = _train_defaults(words)
+    train_default = Train(_run_settings(words, "train", CommandArgs))
+    evolve_default = Evolve(_run_settings(words, "evolve", CommandEvolveArgs))
     task = _last_value(words, "--task") or DistillArgs.task
     distill_default = Distill(CommandDistillArgs.for_task(task))
     return (
         Annotated[List, subcommand("list")]
-        | Annotated[Train, subcommand("train", default=default)]
+        | Annotated[Train, subcommand("train", default=train_default)]
         | Annotated[Distill, subcommand("distill", default=distill_default)]
-        | Annotated[Evolve, subcommand("evolve", default=_evolve_defaults(words))]
+        | Annotated[Evolve, subcommand("evolve", default=evolve_default)]
         | Annotated[Evaluate, subcommand("evaluate")]
         | Annotated[Tournament, subcommand("tournament")]
         | Annotated[Cooperation, subcommand("cooperation")]
@@ -70,21 +71,12 @@ def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at
     )
 
 
-def _train_defaults(words: Sequence[str]) -> Train:
-    """Values of the options of `train` that the words do not give."""
+def _run_settings(words: Sequence[str], command: str, kind: type[A]) -> A:
+    """Settings of the run that a command resumes, or else the recommended ones for its task."""
     resumed = None
-    if _resumes(words, "train"):
-        resumed = CommandArgs.of_run(Path(_last_value(words, "--out") or Args.out))
-    return Train(resumed or CommandArgs.for_task(_last_value(words, "--task") or Args.task))
-
-
-def _evolve_defaults(words: Sequence[str]) -> Evolve:
-    """Values of the options of `evolve` that the words do not give."""
-    resumed = None
-    if _resumes(words, "evolve"):
-        resumed = CommandEvolveArgs.of_run(Path(_last_value(words, "--out") or EvolveArgs.out))
-    task = _last_value(words, "--task") or EvolveArgs.task
-    return Evolve(resumed or CommandEvolveArgs.for_task(task))
+    if _resumes(words, command):
+        resumed = kind.of_run(Path(_last_value(words, "--out") or kind.out))
+    return resumed or kind.for_task(_last_value(words, "--task") or kind.task)
 
 
 def _resumes(words: Sequence[str], command: str) -> bool:

@@ -68,6 +68,11 @@ def test_two_passers_pass_back_and_forth() -> None:
         ("ssl_grsim", "grsim", "grsim"),
         ("ssl_erforce_simulator", "ssl_erforce_simulator", "erforce_simulator"),
         ("ssl_erforce_simulator", "ssl_erforce_simulator", "rc2021, command_delay=0.01"),
+        (
+            "ssl_erforce_simulator_rc2021",
+            "ssl_erforce_simulator",
+            "rc2021, command_delay=0.01",
+        ),
     ],
 )
 @pytest.mark.parametrize("forecast", [0, 1])
